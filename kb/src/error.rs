@@ -85,7 +85,10 @@ impl std::error::Error for Error {}
 impl From<adit_db::Error> for Error {
     fn from(error: adit_db::Error) -> Self {
         let help = match &error {
-            adit_db::Error::Missing(_) => Some("`adit build` makes it".to_owned()),
+            adit_db::Error::Missing(file) => Some(match file.parent().filter(|_| file.ends_with("site.db")) {
+                Some(site) if site != Path::new("") => format!("`adit build {}` makes it", site.display()),
+                _ => "`adit build` makes it".to_owned(),
+            }),
             adit_db::Error::NotAdit(_) => {
                 Some("build the site first, then make tables of your own in its site.db; or name another file with --db".to_owned())
             }

@@ -16,6 +16,7 @@ use tokio::runtime::Handle;
 use tokio::sync::watch;
 
 use crate::ears::{Ears, drain, words};
+use crate::presence::Presence;
 
 /// How long a result is kept after the end.
 const KEPT: Duration = Duration::from_mins(1);
@@ -30,6 +31,7 @@ pub type Ended<R> = Result<R, R>;
 pub struct Actions<G: Message + Clone, R: Message + Clone, F: Message> {
     name: String,
     server: ActionServer<G, R, F>,
+    presence: Arc<Presence>,
     goals: Mutex<BTreeMap<GoalId, Goal<R>>>,
 }
 
@@ -54,7 +56,7 @@ where
     pub fn serve<D, W>(
         name: &str,
         mut server: ActionServer<G, R, F>,
-        ears: &mut Ears,
+        (ears, presence): (&mut Ears, Arc<Presence>),
         runtime: Handle,
         run: D,
     ) -> anyhow::Result<()>
@@ -65,7 +67,7 @@ where
         ears.wake_for(server.goal_server())?;
         ears.wake_for(server.cancel_server())?;
         ears.wake_for(server.result_server())?;
-        let all = Arc::new(Self { name: name.to_owned(), server, goals: Mutex::default() });
+        let all = Arc::new(Self { name: name.to_owned(), server, presence, goals: Mutex::default() });
         let (goals, cancels, results) =
             (format!("{name}/send_goal"), format!("{name}/cancel_goal"), format!("{name}/get_result"));
         ears.then(Box::new(move || {
@@ -120,9 +122,10 @@ where
             }
             is_new
         };
-        self.sent(
-            self.server.send_goal_response(request, SendGoalResponse { accepted: is_new, stamp: accepted }),
-        );
+        self.answer(request, move |all| {
+            let response = SendGoalResponse { accepted: is_new, stamp: accepted };
+            all.sent(all.server.send_goal_response(request, response));
+        });
         if !is_new {
             say(&format!("{}: a goal is rejected: its id is known, or {AT_ONCE} run already", self.name));
             return;
@@ -143,7 +146,7 @@ where
         });
     }
 
-    fn end(&self, id: GoalId, status: Status, result: &R) {
+    fn end(self: &Arc<Self>, id: GoalId, status: Status, result: &R) {
         let waits = {
             let mut goals = self.goals();
             let Some(goal) = goals.get_mut(&id) else { return };
@@ -153,12 +156,19 @@ where
             std::mem::take(&mut goal.waits)
         };
         for request in waits {
-            self.sent(self.server.send_result(request, GetResultResponse { status, result: result.clone() }));
+            self.tell_result(request, GetResultResponse { status, result: result.clone() });
         }
         self.tell_statuses();
     }
 
-    fn result(&self, request: RmwRequestId, id: GoalId) {
+    fn tell_result(self: &Arc<Self>, request: RmwRequestId, answer: GetResultResponse<R>) {
+        self.answer(request, move |all| {
+            let answer = GetResultResponse { status: answer.status, result: answer.result.clone() };
+            all.sent(all.server.send_result(request, answer));
+        });
+    }
+
+    fn result(self: &Arc<Self>, request: RmwRequestId, id: GoalId) {
         let answer = {
             let mut goals = self.goals();
             match goals.get_mut(&id) {
@@ -172,15 +182,17 @@ where
                 }
             }
         };
-        self.sent(self.server.send_result(request, answer));
+        self.tell_result(request, answer);
     }
 
-    fn cancel(&self, request: RmwRequestId, asked: &CancelGoalRequest) {
+    fn cancel(self: &Arc<Self>, request: RmwRequestId, asked: &CancelGoalRequest) {
         let response = match info(asked) {
             Some(info) => self.cancelled(&info),
             None => CancelGoalResponse { return_code: Cancel::Rejected, goals_canceling: Vec::new() },
         };
-        self.sent(self.server.send_cancel_response(request, response));
+        self.answer(request, move |all| {
+            all.sent(all.server.send_cancel_response(request, response.clone()));
+        });
         self.tell_statuses();
     }
 
@@ -212,6 +224,13 @@ where
         };
         let status_list = self.goals().iter().map(of).collect();
         self.sent(self.server.send_goal_statuses(GoalStatusArray { status_list }));
+    }
+
+    /// Sends an answer, and once more where whoever asks was not known yet.
+    fn answer(self: &Arc<Self>, request: RmwRequestId, send: impl Fn(&Self) + Send + 'static) {
+        send(self);
+        let all = Arc::clone(self);
+        self.presence.sent(&request, move || send(&all));
     }
 
     fn sent<E: std::fmt::Debug>(&self, sent: Result<(), E>) {

@@ -16,6 +16,7 @@ mod node;
 mod path;
 mod planner;
 mod plans;
+mod presence;
 mod shown;
 mod told;
 mod track;

@@ -21,6 +21,7 @@ use crate::msgs::{
     RouteResult, Text, TfMessage, ToPoseGoal, ToPoseResult, TrackFeedback, TrackResult,
 };
 use crate::planner::Planner;
+use crate::presence::Presence;
 use crate::{body, keepout, plans, told, track};
 
 /// The settings of the node.
@@ -51,6 +52,7 @@ pub struct Ros {
     node: Node,
     settings: Settings,
     ears: Ears,
+    presence: Arc<Presence>,
     // what it made ends with it
     _context: Context,
 }
@@ -85,7 +87,8 @@ impl Ros {
                 say(&format!("the node no longer hears who else is there: {}", words(error)));
             }
         });
-        Ok(Self { node, settings, ears: Ears::new()?, _context: context })
+        let presence = Presence::of(&node)?;
+        Ok(Self { node, settings, ears: Ears::new()?, presence, _context: context })
     }
 
     fn name(&self, name: &str) -> anyhow::Result<Name> {
@@ -188,14 +191,18 @@ impl Ros {
                 qos(100),
             )
             .map_err(|error| anyhow!("service get_plan: {}", words(error)))?;
-        let (all, runtime) = (Arc::clone(planner), Handle::current());
+        let (all, runtime, presence) = (Arc::clone(planner), Handle::current(), Arc::clone(&self.presence));
         self.ears.service(service, "get_plan".to_owned(), move |service, id, request| {
-            let (service, all) = (Arc::clone(service), Arc::clone(&all));
+            let (service, all, presence) = (Arc::clone(service), Arc::clone(&all), Arc::clone(&presence));
             runtime.spawn(async move {
                 let plan = plans::get_plan(&all, &request).await;
-                if let Err(error) = service.async_send_response(id, GetPlanResponse { plan }).await {
-                    say(&format!("get_plan: the answer cannot be sent: {}", words(error)));
-                }
+                let send = move || {
+                    if let Err(error) = service.send_response(id, GetPlanResponse { plan: plan.clone() }) {
+                        say(&format!("get_plan: the answer cannot be sent: {}", words(error)));
+                    }
+                };
+                send();
+                presence.sent(&id, send);
             });
         })?;
         let all = Arc::clone(planner);
@@ -244,7 +251,7 @@ impl Ros {
                 policies,
             )
             .map_err(|error| anyhow!("action {name}: {}", words(error)))?;
-        Actions::serve(name, server, &mut self.ears, Handle::current(), run)
+        Actions::serve(name, server, (&mut self.ears, Arc::clone(&self.presence)), Handle::current(), run)
     }
 
     /// Hears from now on, until the program ends.

@@ -71,7 +71,7 @@ fn compile(source: &SourceFile, reader: &Engine, problems: &mut Vec<Diagnostic>)
     match reader.compile(source.text()) {
         Ok(ast) => Some(ast),
         Err(error) => {
-            let message = syntax_message(error.err_type());
+            let message = syntax_message(error.err_type(), word_before(source.text(), error.position()));
             problems.push(Diagnostic::error(Code::Syntax, &source.place(error.position()), message));
             None
         }
@@ -133,7 +133,13 @@ fn items(source: &SourceFile, ast: &AST, read: &mut Read) {
     }
 }
 
-fn syntax_message(error: &ParseErrorType) -> String {
+/// The first word of the line where an error is found further on in it.
+fn word_before(text: &str, position: rhai::Position) -> &str {
+    let line = position.line().and_then(|line| text.lines().nth(line.checked_sub(1)?)).unwrap_or_default();
+    line.split_whitespace().next().unwrap_or_default()
+}
+
+fn syntax_message(error: &ParseErrorType, before: &str) -> String {
     match error {
         ParseErrorType::Reserved(word) => {
             format!("`{word}` is a reserved word of the script language; use another name")
@@ -146,9 +152,12 @@ fn syntax_message(error: &ParseErrorType) -> String {
         ParseErrorType::MissingSymbol(message) if message.contains("string") => {
             "the rule's name belongs here, in double quotes".to_owned()
         }
-        ParseErrorType::MissingToken(token, _) if token == ";" => {
-            "a `;` belongs before this, to part it from the statement before".to_owned()
-        }
+        ParseErrorType::MissingToken(token, _) if token == ";" => match before {
+            "each" | "some" | "least" | "most" | "none" => {
+                format!("`{before}` belongs in a rule, which begins with `rule \"what it says\"`")
+            }
+            _ => "a `;` belongs before this, to part it from the statement before".to_owned(),
+        },
         ParseErrorType::MissingToken(token, _) if token == "}" => {
             "a `}` is missing: what a `{` has opened is not closed".to_owned()
         }

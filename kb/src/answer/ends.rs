@@ -82,8 +82,9 @@ impl Basis<'_> {
             return Ok((graph.goal(gauge, &End::Point(instead.at()), robot), nearest));
         }
         if let Some((code, message)) = refused {
-            let help =
-                nearest.as_ref().map(|nearest| format!("the nearest point at which it fits is {nearest}"));
+            let help = nearest
+                .as_ref()
+                .map(|nearest| format!("the nearest point at which the robot fits is {nearest}"));
             return Err(Error::all([Finding::said(code, message, help).instead(nearest)]));
         }
         answer.nearest = answer.nearest.take().or(nearest);

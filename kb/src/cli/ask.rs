@@ -68,7 +68,9 @@ fn show(asked: &Asked) {
         (_, Some(question)) => line(&format!("{} is not settled: {}", asked.what, question.text)),
         _ => line(&format!("{} is unknown, and nothing that can be asked would settle it", asked.what)),
     }
-    line(&format!("rules weighed {} for it", counted(asked.weighed, "object")));
+    if asked.weighed > 0 {
+        line(&format!("rules weighed {} for it", counted(asked.weighed, "object")));
+    }
 }
 
 fn tell(live: &mut Live, (said, until): (&[Said], Option<&String>)) -> Result<()> {

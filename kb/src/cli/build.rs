@@ -201,26 +201,7 @@ pub fn changes(said: &str, report: &Report) {
     if closings.len() > LISTED {
         line(&format!("and {} more", closings.len() - LISTED));
     }
-    match (report.routes.changed, report.routes.rerouted) {
-        (Some(changed), Some(rerouted)) => {
-            let is_otherwise = |change: &&RouteChange| report.course.is_some() && is_driven_otherwise(change);
-            let otherwise = report.routes.changes.iter().filter(is_otherwise).count();
-            let otherwise = match otherwise {
-                0 => String::new(),
-                1 => "; 1 is driven otherwise".to_owned(),
-                count => format!("; {count} are driven otherwise"),
-            };
-            line(&match (changed, rerouted, otherwise.is_empty()) {
-                _ if report.routes.starts == 0 => NOTHING_KEPT.to_owned(),
-                (0, 0, true) => "no route costs anything else or leads another way".to_owned(),
-                _ => format!(
-                    "of the routes from {}, {changed} have another cost and {rerouted} lead another way{otherwise}",
-                    counted(report.routes.starts, "start")
-                ),
-            });
-        }
-        _ => line(&format!("routes from {} were made anew", counted(report.routes.starts, "start"))),
-    }
+    line(&of_routes(report));
     let several = report.routes.changes.iter().any(|change| change.robot != report.routes.changes[0].robot)
         || report.course.is_some() && report.routes.changes.iter().any(|change| change.robot != ONLY_ROBOT);
     for change in report.routes.changes.iter().take(LISTED) {
@@ -239,6 +220,37 @@ pub fn changes(said: &str, report: &Report) {
         line(&format!("  and {} more between places", report.routes.changes.len() - LISTED));
     }
     notes(report);
+}
+
+/// What became of the routes that are kept, in a sentence.
+fn of_routes(report: &Report) -> String {
+    let routes = &report.routes;
+    let starts = counted(routes.starts, "start");
+    let Some(rerouted) = routes.rerouted else {
+        let same = if routes.changes.is_empty() { "; between places none costs anything else" } else { "" };
+        return format!("routes from {starts} were made anew{same}");
+    };
+    if routes.starts == 0 {
+        return NOTHING_KEPT.to_owned();
+    }
+    let is_otherwise = |change: &&RouteChange| report.course.is_some() && is_driven_otherwise(change);
+    let otherwise = routes.changes.iter().filter(is_otherwise).count();
+    let kinds = [
+        (routes.shorter, "costs less", "cost less"),
+        (routes.longer, "costs more", "cost more"),
+        (rerouted, "leads another way", "lead another way"),
+        (routes.lost, "is lost", "are lost"),
+        (routes.found, "is possible again", "are possible again"),
+        (otherwise, "is driven otherwise", "are driven otherwise"),
+    ];
+    let said = kinds.iter().filter(|(count, ..)| *count > 0);
+    let said: Vec<String> =
+        said.map(|(count, one, more)| format!("{count} {}", if *count == 1 { one } else { more })).collect();
+    match said.as_slice() {
+        [] => "no route costs anything else or leads another way".to_owned(),
+        [only] => format!("of the routes from {starts}, {only}"),
+        [first @ .., last] => format!("of the routes from {starts}, {} and {last}", first.join(", ")),
+    }
 }
 
 /// What of a room or door is otherwise: its hardness, its action, whether it lets through.

@@ -41,11 +41,11 @@ pub fn check(args: &SiteArgs) -> Result<bool> {
         json(&as_json(&found))?;
     } else {
         problems(&found);
-        line(&if sound {
-            format!("{what} are in order")
-        } else {
-            "something is wrong; the site is as it was".to_owned()
-        });
+        if sound {
+            line(&format!("{what} are in order"));
+        } else if args.site.join("site.toml").exists() {
+            line("something is wrong; the site is as it was");
+        }
     }
     Ok(sound)
 }

@@ -43,7 +43,8 @@ pub fn run(args: &NewArgs) -> Result<()> {
     let dir = args.dir.as_deref().unwrap_or(Path::new("."));
     if dir.join("site.toml").exists() {
         let message = format!("{} is a site already", dir.display());
-        return Err(Error::said(Code::SiteExists, message, None));
+        let help = format!("`adit build {}` builds it; another folder starts another one", dir.display());
+        return Err(Error::said(Code::SiteExists, message, Some(help)));
     }
     if args.no_map {
         return without_map(args, dir);

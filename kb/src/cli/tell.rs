@@ -12,6 +12,7 @@ use crate::edit::Tell;
 use crate::error::{Code, Error, Result};
 use crate::knowledge::KnowledgeBase;
 use crate::words::cells::{object, text};
+use crate::words::number::number;
 
 #[derive(Args, Debug)]
 pub struct TellArgs {
@@ -92,8 +93,24 @@ fn list(knowledge: &KnowledgeBase, as_json: bool) -> Result<()> {
         line("nothing is told");
         return Ok(());
     }
-    let names: Vec<&str> = facts.columns.iter().map(|column| column.name.as_str()).collect();
-    let cells = |row: usize| facts.columns.iter().map(|column| text(&column.values[row])).collect();
-    table(&names, (0..rows).map(cells));
+    let at = |name: &str, row: usize| {
+        let column = facts.columns.iter().find(|column| column.name == name);
+        column.map_or_else(String::new, |column| text(&column.values[row]))
+    };
+    let cells = |row: usize| {
+        let [class, object, property, value] =
+            ["class", "object", "property", "value"].map(|name| at(name, row));
+        let about: Vec<String> = serde_json::from_str(&at("objects", row)).unwrap_or_default();
+        let about = if about.is_empty() { at("state", row) } else { about.join(", ") };
+        let what = format!("{class} {} {property} = {value}", point(&object));
+        vec![at("id", row), what, about, at("until", row), at("who", row), at("why", row), at("at", row)]
+    };
+    table(&["fact", "what", "about", "until", "who", "why", "at"], (0..rows).map(cells));
     Ok(())
+}
+
+/// A point as people write it; any other name as it is.
+fn point(object: &str) -> String {
+    let parts = object.split_once(',').and_then(|(x, y)| Some((x.parse().ok()?, y.parse().ok()?)));
+    parts.map_or_else(|| object.to_owned(), |(x, y)| format!("{},{}", number(x), number(y)))
 }

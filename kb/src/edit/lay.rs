@@ -11,6 +11,7 @@ use super::tell::{self, Tell};
 use crate::error::{Code, Error, Result};
 use crate::knowledge::{KnowledgeBase, laid};
 use crate::site::clock::stored;
+use crate::words::suggest::{did_you_mean, listed};
 
 /// What can be laid over the map.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -133,7 +134,8 @@ impl Lay {
 pub(super) fn lift(tx: &mut Tx<'_>, name: &str, author: &Author) -> Result<Edited> {
     let laid = tx.laid()?;
     if !laid.iter().any(|row| row.name == name) {
-        let help = crate::words::suggest::did_you_mean(name, laid.iter().map(|row| row.name.as_str()));
+        let names = || laid.iter().map(|row| row.name.as_str());
+        let help = did_you_mean(name, names()).or_else(|| listed("laid over it", names()));
         let message = format!("nothing called `{name}` was laid over the map");
         return Err(Error::said(Code::LaidUnknown, message, help));
     }

@@ -57,6 +57,8 @@ impl Edit {
                     more => format!(", and {more} more that were made with it"),
                 };
                 match (row(old), row(new)) {
+                    (Some(_), None) if is_switch(old) => format!("undone: tuning {key} is off again{more}"),
+                    (None, Some(_)) if is_switch(new) => format!("undone: tuning {key} is on again{more}"),
                     (Some(_), None) => format!("undone: {} is gone again{more}", called(key, old)),
                     (None, Some(_)) => format!("undone: {} is back{more}", called(key, new)),
                     _ => format!("undone: {key}: {old} → {new}{more}"),
@@ -86,6 +88,11 @@ pub(crate) fn entry(Entry { table, key, column, old, new, .. }: &Entry) -> Strin
             format!("{table}.{key}{column}: {}", change(old, new))
         }
     }
+}
+
+/// Whether a row says that a tuning is on.
+fn is_switch(row: &Cell) -> bool {
+    object(row).is_some_and(|row| row.len() == 1 && row.contains_key("tuning"))
 }
 
 /// A row by its key; a fact, of which that says nothing, with what it says.

@@ -16,9 +16,10 @@ pub fn keep(tx: &mut Tx<'_>, before: Option<&Courses>, now: &Courses) -> Result<
             return Ok(Routes { rows: 0, changed: Some(0), rerouted: Some(0), ..routes });
         }
         let changed = now.changed(before);
-        let has_other_cost =
-            |old: Option<f64>, new: Option<f64>| old.map(f64::to_bits) != new.map(f64::to_bits);
-        routes.changed = Some(changed.iter().filter(|route| has_other_cost(route.old, route.new)).count());
+        for route in &changed {
+            routes.weigh(route.old, route.new);
+        }
+        routes.changed = Some(routes.shorter + routes.longer + routes.lost + routes.found);
         routes.rerouted = Some(changed.iter().filter(|route| route.is_rerouted()).count());
         routes.changes = changed
             .into_iter()

@@ -59,8 +59,16 @@ pub struct Routes {
     pub rows: u64,
     /// Routes from a kept start whose cost changed; `None` where they were made anew.
     pub changed: Option<usize>,
-    /// Those of them that lead another way.
+    /// Those that lead another way.
     pub rerouted: Option<usize>,
+    /// Those that cost less.
+    pub shorter: usize,
+    /// Those that cost more.
+    pub longer: usize,
+    /// Those that are no more.
+    pub lost: usize,
+    /// Those that were not before.
+    pub found: usize,
     /// Those between places, the ones whose cost changed most first.
     pub changes: Vec<RouteChange>,
 }
@@ -86,6 +94,17 @@ pub struct RouteChange {
 pub type PlaceCosts = BTreeMap<(String, String, String), f64>;
 
 impl Routes {
+    /// Counts a route among those that cost less or more, or that there is no more or was not before.
+    pub fn weigh(&mut self, old: Option<f64>, new: Option<f64>) {
+        match (old, new) {
+            (Some(old), Some(new)) if new < old => self.shorter += 1,
+            (Some(old), Some(new)) if new > old => self.longer += 1,
+            (Some(_), None) => self.lost += 1,
+            (None, Some(_)) => self.found += 1,
+            _ => {}
+        }
+    }
+
     /// None yet; `comparable` where routes of before can be compared.
     pub fn new(starts: usize, comparable: bool) -> Self {
         let none = comparable.then_some(0);
@@ -113,10 +132,12 @@ impl Routes {
         for node in old_rows.nodes().chain(new_rows.nodes().filter(|node| old_rows.row(*node).is_none())) {
             let (old_row, new_row) = (old_rows.row(node), new_rows.row(node));
             let costs = (old_row.map(then), new_row.map(now));
+            self.weigh(costs.0, costs.1);
             let other_way = old_ways.of(node) != new_ways.of(node);
+            let are_both = old_row.is_some() && new_row.is_some();
             let differ = costs.0.map(f64::to_bits) != costs.1.map(f64::to_bits);
             changed += usize::from(differ || other_way);
-            rerouted += usize::from(other_way);
+            rerouted += usize::from(other_way && are_both);
             if differ && let Some(place) = graph.place_of(node) {
                 let (robot, from) = (start.robot.clone(), start.name.clone());
                 let (goal, other_way) = (place.to_owned(), Some(other_way));

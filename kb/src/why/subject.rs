@@ -100,5 +100,9 @@ fn unknown(fork: &State, class: &str, key: &str) -> Error {
         "rooms" => did_you_mean(key, graph.rooms.iter().map(|room| room.name.as_str())),
         _ => None,
     };
-    Error::said(Code::WhyUnknown, format!("nothing is concluded about {class} {key}"), help)
+    let message = match class.strip_suffix('s') {
+        Some(one @ ("room" | "door")) => format!("there is no {one} `{key}`"),
+        _ => format!("nothing is concluded about {class} {key}"),
+    };
+    Error::said(Code::WhyUnknown, message, help)
 }

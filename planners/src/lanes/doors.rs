@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::{Door, Lane, LaneGraph, Node};
+use super::{Door, Lane, LaneGraph, Lift, Node};
 use crate::geometry::Point;
 
 /// Names the doors on each lane that has none by name: those that it crosses.
@@ -22,16 +22,28 @@ pub(super) fn cross(graph: &mut LaneGraph) {
     }
 }
 
-/// Adds the doors that lanes name and the file does not place, so that they can be closed: each in the middle of the first lane
-/// that leads through it.
+/// Adds the doors and lifts that lanes and nodes name and the file does not place, so that they can be closed: each in the middle
+/// of the first lane that leads through it, or at the first node in it.
 pub(super) fn named(graph: &mut LaneGraph) {
-    let LaneGraph { lanes, doors, nodes, .. } = graph;
+    let LaneGraph { lanes, doors, lifts, nodes, .. } = graph;
     let by_id: BTreeMap<&str, &Node> = nodes.iter().map(|node| (node.node.as_str(), node)).collect();
     let mut known: BTreeSet<String> = doors.iter().map(|door| door.door.clone()).collect();
+    let mut known_lifts: BTreeSet<String> = lifts.iter().map(|lift| lift.lift.clone()).collect();
+    let mut lift = |name: &Option<String>, at: Point| {
+        if let Some(name) = name
+            && known_lifts.insert(name.clone())
+        {
+            lifts.push(Lift { lift: name.clone(), at, yaw_degrees: 0.0, width: None, depth: None });
+        }
+    };
+    for node in nodes.iter() {
+        lift(&node.lift, node.at);
+    }
     for lane in lanes.iter() {
         let ends = by_id.get(lane.from.as_str()).zip(by_id.get(lane.to.as_str()));
         let Some((from, to)) = ends else { continue };
         let middle = Point::new(f64::midpoint(from.at.x, to.at.x), f64::midpoint(from.at.y, to.at.y));
+        lift(&lane.lift, middle);
         for name in lane.doors() {
             if known.insert(name.to_owned()) {
                 let (door, level) = (name.to_owned(), from.level.clone());

@@ -53,6 +53,7 @@ mod tell;
 mod told_places;
 mod tune;
 mod tunings;
+mod usual;
 mod where_it_fits;
 mod why;
 mod why_not;

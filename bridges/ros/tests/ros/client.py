@@ -13,6 +13,10 @@ from rclpy.qos import DurabilityPolicy, QoSProfile
 
 LOCK = threading.Lock()
 
+# All clients of a service hear all its answers and drop those to others, after these came into a queue of ten: too few where a
+# hundred ask at once.
+SERVICES = QoSProfile(depth=1000)
+
 
 def say(what):
     with LOCK:
@@ -77,14 +81,16 @@ class Client:
 
     def call(self, told):
         service = kind(told["type"])
-        client = self.once(told["name"], lambda: self.node.create_client(service, told["name"]))
+        client = self.once(told["name"], lambda: self.node.create_client(service, told["name"], qos_profile=SERVICES))
         assert client.wait_for_service(20), "no such service"
         ended = client.call_async(fill(service.Request(), told["message"]))
         ended.add_done_callback(lambda done: say({"id": told["id"], "response": written(done.result())}))
 
     def goal(self, told):
         action = kind(told["type"])
-        client = self.once(told["name"], lambda: ActionClient(self.node, action, told["name"]))
+        services = [f"{name}_service_qos_profile" for name in ("goal", "result", "cancel")]
+        make = lambda: ActionClient(self.node, action, told["name"], **dict.fromkeys(services, SERVICES))
+        client = self.once(told["name"], make)
         assert client.wait_for_server(20), "no such action"
 
         def ended(done):
@@ -141,12 +147,16 @@ def main():
     spinning = threading.Thread(target=spin)
     spinning.start()
     say({"is": "there"})
-    for line in sys.stdin:
-        told = json.loads(line)
+
+    def do(told):
         try:
             client.do(told)
         except Exception as error:
             say({"id": told.get("id"), "error": repr(error)})
+
+    # in the thread that spins: what rclpy's action clients are told in another one gets lost now and then (ros2/rclpy#1123)
+    for line in sys.stdin:
+        executor.create_task(do, json.loads(line))
     rclpy.shutdown()
     spinning.join()
 

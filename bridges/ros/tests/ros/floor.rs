@@ -198,6 +198,16 @@ impl Client {
         panic!("{what}: not in time; heard were {:#?}", self.kept);
     }
 
+    /// What was heard already, if it was.
+    pub fn heard(&mut self, is: impl Fn(&Value) -> bool) -> Option<Value> {
+        while let Ok(said) = self.heard.try_recv() {
+            assert!(said["error"].is_null(), "rclpy: {said}");
+            self.kept.push(said);
+        }
+        let index = self.kept.iter().position(is)?;
+        Some(self.kept.remove(index))
+    }
+
     /// Asks for a plan.
     #[track_caller]
     pub fn plan(&mut self, request: &Value) -> Value {

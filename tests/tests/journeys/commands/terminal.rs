@@ -67,7 +67,8 @@ impl Terminal {
         bash
     }
 
-    /// Types a command. It must do what it is for: exit status 0, or, of one that lasts, an answer.
+    /// Types a command. It must do what it is for: exit status 0, or, of one that lasts, an answer. Where the page shows beside it what
+    /// it prints (`# …, takes about 23 s`), it must print that.
     pub fn run(&mut self, command: &str, at: &str) {
         let command = match &self.service {
             Some(service) => command.replace(ADDRESS, &service.address),
@@ -83,6 +84,9 @@ impl Terminal {
         }
         let ran = Ran::new(&self.bash(&command).output().expect("bash runs"));
         assert_eq!(ran.status, 0, "{at}: {command}\n{}\n{}", ran.stdout, ran.stderr);
+        if let Some((_, printed)) = command.split_once("# …, ") {
+            assert!(ran.stdout.contains(printed.trim()), "{at}: {command}\n{}", ran.stdout);
+        }
     }
 
     /// Starts what lasts, and waits for its first line. A service goes on, for what asks it; the others end.

@@ -76,6 +76,19 @@ fn a_lift_is_ridden_between_levels_and_closed_by_name() {
 }
 
 #[test]
+fn a_lift_that_a_file_only_names_is_closed_by_that_name() {
+    let ward = ward();
+    let graph = ward.path().join("graph.geojson");
+    ward.adit("export", &["--to", graph.to_str().unwrap()]).expect_status(0);
+    let site = site_of(&graph);
+    assert_eq!(site.sqlite3("SELECT lift FROM lifts"), ["lift"], "Nav2's route graphs place no lifts");
+    let cost = "SELECT status FROM route WHERE start = 'lobby' AND goal = 'ward 2'";
+    assert_eq!(site.sqlite3(cost), ["ok"]);
+    site.adit("close", &["lift"]).expect_status(0);
+    assert_eq!(site.sqlite3(cost), ["no_route"]);
+}
+
+#[test]
 fn tables_and_rules_of_lanes_are_tuned_explained_and_undone() {
     let site = ward();
     let before = site.sqlite3("SELECT * FROM route; SELECT * FROM action_sequence");
