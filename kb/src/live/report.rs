@@ -57,7 +57,7 @@ pub struct Routes {
     pub starts: usize,
     /// Rows written.
     pub rows: u64,
-    /// Routes from a kept start whose cost changed; `None` where they were made anew.
+    /// Routes from a kept start, to places and in the paper's modes to rooms, that changed; `None` where they were made anew.
     pub changed: Option<usize>,
     /// Those that lead another way.
     pub rerouted: Option<usize>,
@@ -129,7 +129,9 @@ impl Routes {
         let (mut old_ways, mut new_ways) =
             (Itineraries::new(&old_rows, before.graph), Itineraries::new(&new_rows, graph));
         let (mut changed, mut rerouted) = (0, 0);
-        for node in old_rows.nodes().chain(new_rows.nodes().filter(|node| old_rows.row(*node).is_none())) {
+        let nodes = old_rows.nodes().chain(new_rows.nodes().filter(|node| old_rows.row(*node).is_none()));
+        // where rooms weigh metres the others are points at which ways bend, and nobody's goals
+        for node in nodes.filter(|node| graph.graph().is_on_doors() || graph.place_of(*node).is_some()) {
             let (old_row, new_row) = (old_rows.row(node), new_rows.row(node));
             let costs = (old_row.map(then), new_row.map(now));
             self.weigh(costs.0, costs.1);
