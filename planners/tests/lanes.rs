@@ -6,6 +6,7 @@ use adit_planners::lanes::{
     Format, Lane, LaneGraph, Level, Node, VehicleType, is_lane_graph, read_lane_graph, write,
 };
 use adit_planners::read::Problem;
+use miette::Diagnostic as _;
 use proptest::prelude::*;
 
 fn names() -> impl Strategy<Value = Option<String>> {
@@ -112,7 +113,7 @@ proptest! {
         let file = folder.path().join(["a.geojson", "a.building.yaml", "a.lif.json"][end]);
         std::fs::write(&file, text).unwrap();
         if let Err(problem) = read_lane_graph(&file) {
-            prop_assert!(problem.message.contains("a."), "{}", problem.message);
+            prop_assert!(said(&problem).contains("a."), "{}", said(&problem));
         }
     }
 }
@@ -126,7 +127,15 @@ fn read_as(name: &str, text: &str) -> Result<LaneGraph, Problem> {
 
 /// What is said of a file that is refused.
 fn refused(name: &str, text: &str) -> String {
-    read_as(name, text).unwrap_err().message
+    said(&read_as(name, text).unwrap_err())
+}
+
+/// A problem with the name of its file, where its line is shown.
+fn said(problem: &Problem) -> String {
+    let label = problem.labels().and_then(|mut labels| labels.next());
+    let shown = label.and_then(|label| problem.source_code()?.read_span(label.inner(), 0, 0).ok());
+    let file = shown.and_then(|shown| Some(format!("{}: ", shown.name()?)));
+    format!("{}{}", file.unwrap_or_default(), problem.message)
 }
 
 const NODES: &str = r#"{"type":"Feature","properties":{"id":0},"geometry":{"type":"Point","coordinates":[0,0]}},
