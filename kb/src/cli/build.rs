@@ -235,6 +235,7 @@ fn of_routes(report: &Report) -> String {
     }
     let is_otherwise = |change: &&RouteChange| report.course.is_some() && is_driven_otherwise(change);
     let otherwise = routes.changes.iter().filter(is_otherwise).count();
+    let among = if routes.between_places { "between places".to_owned() } else { format!("from {starts}") };
     let kinds = [
         (routes.shorter, "costs less", "cost less"),
         (routes.longer, "costs more", "cost more"),
@@ -247,9 +248,12 @@ fn of_routes(report: &Report) -> String {
     let said: Vec<String> =
         said.map(|(count, one, more)| format!("{count} {}", if *count == 1 { one } else { more })).collect();
     match said.as_slice() {
+        [] if routes.between_places => {
+            "no route between places costs anything else or leads another way".to_owned()
+        }
         [] => "no route costs anything else or leads another way".to_owned(),
-        [only] => format!("of the routes from {starts}, {only}"),
-        [first @ .., last] => format!("of the routes from {starts}, {} and {last}", first.join(", ")),
+        [only] => format!("of the routes {among}, {only}"),
+        [first @ .., last] => format!("of the routes {among}, {} and {last}", first.join(", ")),
     }
 }
 

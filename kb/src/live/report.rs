@@ -57,6 +57,8 @@ pub struct Routes {
     pub starts: usize,
     /// Rows written.
     pub rows: u64,
+    /// Whether those to places alone are counted, as where rooms weigh metres.
+    pub between_places: bool,
     /// Routes from a kept start, to places and in the paper's modes to rooms, that changed; `None` where they were made anew.
     pub changed: Option<usize>,
     /// Those that lead another way.
@@ -129,9 +131,11 @@ impl Routes {
         let (mut old_ways, mut new_ways) =
             (Itineraries::new(&old_rows, before.graph), Itineraries::new(&new_rows, graph));
         let (mut changed, mut rerouted) = (0, 0);
+        let between_places = !graph.graph().is_on_doors();
+        self.between_places = between_places;
         let nodes = old_rows.nodes().chain(new_rows.nodes().filter(|node| old_rows.row(*node).is_none()));
         // where rooms weigh metres the others are points at which ways bend, and nobody's goals
-        for node in nodes.filter(|node| graph.graph().is_on_doors() || graph.place_of(*node).is_some()) {
+        for node in nodes.filter(|node| !between_places || graph.place_of(*node).is_some()) {
             let (old_row, new_row) = (old_rows.row(node), new_rows.row(node));
             let costs = (old_row.map(then), new_row.map(now));
             self.weigh(costs.0, costs.1);

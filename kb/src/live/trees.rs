@@ -38,7 +38,9 @@ impl Plan {
     /// What the routes of a tree between places cost.
     pub fn place_costs(&self, graph: &SiteGraph, tree: i64, rows: &[TreeRow]) -> PlaceCosts {
         let of_places = rows.iter().filter_map(|row| Some((graph.place_of(row.node)?, row.reach)));
-        let Some(start) = self.start(tree) else { return PlaceCosts::new() };
+        // rooms are called otherwise where they are cut anew
+        let is_place = |start: &&StartRow| graph.places.iter().any(|place| place.place == start.name);
+        let Some(start) = self.start(tree).filter(is_place) else { return PlaceCosts::new() };
         of_places
             .map(|(goal, cost)| ((start.robot.clone(), start.name.clone(), goal.to_owned()), cost))
             .collect()

@@ -57,6 +57,19 @@ pub(crate) fn span_of(location: serde_saphyr::Location) -> Range<usize> {
     start..start + span.byte_len().unwrap_or(0) as usize
 }
 
+/// Where an error of a YAML text is, in bytes; some are told by line and column alone.
+pub(crate) fn span_in(text: &str, location: serde_saphyr::Location) -> Range<usize> {
+    let span = span_of(location);
+    if span.start > 0 || location.line() < 2 && location.column() < 2 {
+        return span;
+    }
+    let (line, column) = (location.line() as usize, location.column() as usize);
+    let before: usize = text.split_inclusive('\n').take(line.saturating_sub(1)).map(str::len).sum();
+    let rest = text.get(before..).unwrap_or_default();
+    let within = rest.char_indices().nth(column.saturating_sub(1)).map_or(rest.len(), |(byte, _)| byte);
+    before + within..before + within
+}
+
 /// One table of a document, and where to report what is wrong with it.
 pub struct Fields<'a, 'i> {
     /// How messages call it: `[[obstacle]]`.

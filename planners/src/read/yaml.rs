@@ -14,7 +14,7 @@ use serde_saphyr::{
     Error, MessageFormatter as _, NonFiniteFloatPolicy, Options, Spanned, UserMessageFormatter,
 };
 
-use super::fields::span_of;
+use super::fields::{span_in, span_of};
 use super::value::Step;
 
 /// How deep lists and objects may lie in each other.
@@ -38,7 +38,7 @@ impl<'t> Yaml<'t> {
     pub fn read(text: &'t str) -> Result<Self, (Option<Range<usize>>, String)> {
         let value = serde_saphyr::from_str_with_options(text, options(text)).map_err(|error| {
             let error = error.without_snippet();
-            (error.location().map(span_of), in_words(error))
+            (error.location().map(|location| span_in(text, location)), in_words(error))
         })?;
         Ok(Self { text, value, written: OnceCell::new() })
     }

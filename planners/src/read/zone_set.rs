@@ -134,18 +134,17 @@ fn sets<'v>(top: &At<'v>) -> Read<Vec<At<'v>>> {
     all.into_iter().map(|one| Ok(one.get("zoneSet").unwrap_or(one))).collect()
 }
 
-/// What zones are called: by their words, where no other zone has the same; else by their ids.
+/// What zones are called: by their words, where those are no other zone's words or id; else by their ids.
 fn names(zones: &[At<'_>]) -> Read<Vec<String>> {
     let mut count: BTreeMap<String, usize> = BTreeMap::new();
     let words = zones.iter().map(|zone| zone.name("zoneDescriptor")).collect::<Read<Vec<_>>>()?;
     for words in words.iter().flatten() {
         *count.entry(words.clone()).or_default() += 1;
     }
-    let named = zones.iter().zip(words).map(|(zone, words)| match words.filter(|words| count[words] == 1) {
-        Some(words) => Ok(words),
-        None => zone.need("zoneId")?.id(),
-    });
-    named.collect()
+    let ids = zones.iter().map(|zone| zone.need("zoneId")?.id()).collect::<Read<Vec<_>>>()?;
+    let is_own = |words: &String, id: &String| count[words] == 1 && (words == id || !ids.contains(words));
+    let named = ids.iter().zip(words).map(|(id, words)| words.filter(|words| is_own(words, id)));
+    Ok(named.zip(&ids).map(|(words, id)| words.unwrap_or_else(|| id.clone())).collect())
 }
 
 fn area(
@@ -177,9 +176,10 @@ fn area(
         "PRIORITY" => says("zone_factor", share("priorityFactor")?),
         "DIRECTED" | "BIDIRECTED" => {
             let key = if zone_type == "DIRECTED" { "directedLimitation" } else { "bidirectedLimitation" };
-            let known = ["SOFT", "RESTRICTED", "STRICT"];
+            let known: &[&str] = &["SOFT", "RESTRICTED", "STRICT"];
+            let known = if zone_type == "DIRECTED" { known } else { &known[..2] };
             says("zone_direction", Property::Number(zone.need("direction")?.number()?.to_degrees()));
-            says("zone_limitation", Property::Text(one_of(&zone.need(key)?, &known)?));
+            says("zone_limitation", Property::Text(one_of(&zone.need(key)?, known)?));
         }
         "ACTION" => {
             let entry = zone.list("entryActions")?;

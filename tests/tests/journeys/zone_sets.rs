@@ -52,7 +52,7 @@ fn each_type_of_zone_is_an_area_that_says_what_the_zone_said() {
         zone("f", "ACTION", [3.0, 0.0, 3.5, 0.5], &json!({"entryActions": [{"actionType": "beep", "blockingType": "NONE"}],
             "duringActions": [], "exitActions": []})),
         zone("g", "LINE_GUIDED", [4.0, 0.0, 4.5, 0.5], &json!({})),
-        zone("h", "RELEASE", [5.0, 0.0, 5.5, 0.5], &json!({"releaseLossBehavior": "STOP"})),
+        zone("h", "RELEASE", [5.0, 0.0, 5.5, 0.5], &json!({"releaseLossBehavior": "STOP", "zoneDescriptor": "g"})),
     ])});
     let site = site(&zones);
     let built = site.adit("build", &[]).expecting(0);
@@ -147,7 +147,14 @@ fn a_zone_set_that_is_wrong_is_refused_at_its_line() {
     let same = zone("here", "BLOCKED", square, &json!({}));
     refused(&one(same), &["`here`"]);
     refused(&json!({"zoneSet": {}}), &["zoneSet has no `mapId`"]);
+    let across =
+        zone("a", "BIDIRECTED", square, &json!({"direction": 0.0, "bidirectedLimitation": "STRICT"}));
+    refused(&one(across), &["bidirectedLimitation is the text \"STRICT\", expected one of SOFT, RESTRICTED"]);
     let site = site(&json!({}));
+    site.write("zones.yaml", "mapId: m\nzoneSetId: s: t\n");
+    site.edit("site.toml", "zones.json", "zones.yaml");
+    site.adit("build", &[]).expecting(2).complains(&["not YAML", "zones.yaml:2:"]);
+    site.edit("site.toml", "zones.yaml", "zones.json");
     site.write("zones.json", "{\n  \"mapId\": \"m\",\n  \"zones\": [}\n");
     site.adit("build", &[]).expecting(2).complains(&["not JSON: expected value", "zones.json:3:13"]);
     site.edit("site.toml", "zones.json", "none.json");

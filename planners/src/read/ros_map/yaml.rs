@@ -6,7 +6,7 @@ use serde::Deserialize;
 use serde_saphyr::Spanned;
 
 use super::super::diagnostic::{Code, MapErrors, Problem, Text};
-use super::super::fields::{LARGEST, Located, span_of};
+use super::super::fields::{LARGEST, Located, span_in};
 use super::super::occupancy::Cell;
 use super::super::suggest::nearest;
 use crate::pose::Pose;
@@ -127,7 +127,7 @@ impl Default for Negate {
 }
 
 pub(crate) fn parse(source: &Text, text: &str) -> Result<MapFile, MapErrors> {
-    let written: Written = serde_saphyr::from_str(text).map_err(|error| explain(source, &error))?;
+    let written: Written = serde_saphyr::from_str(text).map_err(|error| explain((source, text), &error))?;
     let mut problems = Vec::new();
     let image = Located::from(&written.image);
     if image.value.trim().is_empty() {
@@ -158,9 +158,9 @@ pub(crate) fn parse(source: &Text, text: &str) -> Result<MapFile, MapErrors> {
     }
 }
 
-fn explain(source: &Text, error: &serde_saphyr::Error) -> Problem {
+fn explain((source, text): (&Text, &str), error: &serde_saphyr::Error) -> Problem {
     let error = error.without_snippet();
-    let span = error.location().map_or(0..0, span_of);
+    let span = error.location().map_or(0..0, |location| span_in(text, location));
     match error {
         serde_saphyr::Error::SerdeUnknownField { field, .. } => {
             let help = match nearest(field, &KEYS) {
