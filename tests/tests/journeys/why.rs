@@ -27,7 +27,7 @@ fn why_names_the_rule_and_what_it_chose() {
 #[test]
 fn why_of_something_that_is_not_there_says_what_is() {
     let site = TestSite::example("paper").built();
-    site.adit("why", &["room bb"]).expecting(2).complains(&["rooms bb", "did you mean `b`?"]);
+    site.adit("why", &["room bb"]).expecting(2).complains(&["there is no room `bb`", "did you mean `b`?"]);
     site.adit("why", &["door 99"]).expecting(2).complains(&["there are 8 doors"]);
     site.adit("why", &["doors.3.hardnes"]).expecting(2).complains(&["did you mean `hardness`?"]);
     site.adit("why", &["nonsense"]).expecting(2).complains(&["names no object", "door 7"]);
