@@ -199,6 +199,27 @@ proptest! {
     }
 
     #[test]
+    fn the_ways_to_all_rooms_are_those_to_each_room_alone(
+        blocks in blocks(), pipes in pipes(), from in point(), change in 0.0..2.0_f64,
+        shut in prop::collection::vec(any::<prop::sample::Index>(), 0..12)
+    ) {
+        let mut graph = graph_of(&with_pipes(&blocks, &pipes), &three_shapes(), change);
+        let shut: Vec<_> = shut.iter().map(|door| DoorIndex::new(door.index(graph.doors().len()))).collect();
+        graph.reweigh([], shut.into_iter().map(|door| (door, Some(0.0), false)));
+        let start = Start::within(holding(&graph, from), from);
+        let all = graph.ways(&start, &[], true).rooms;
+        for room in graph.room_indices() {
+            let alone = graph.tightest_way(&start, &[Goal::within([room], None)]).map(|(_, way)| way.cost);
+            let cost = all[room.index()].as_ref().map(|way| way.cost);
+            prop_assert_eq!(cost.is_some(), alone.is_some(), "{:?}", graph[room].outline);
+            if let (Some(cost), Some(alone)) = (cost, alone) {
+                let is_same = (cost / alone - 1.0).abs() < 5e-2 || (cost - alone).abs() < 1e-9;
+                prop_assert!(is_same, "{cost} and {alone}");
+            }
+        }
+    }
+
+    #[test]
     fn with_three_shapes_and_doors_shut_here_and_there_a_way_costs_the_same_there_and_back(
         blocks in blocks(), pipes in pipes(), from in point(), to in point(), change in 0.0..2.0_f64,
         shut in prop::collection::vec(any::<prop::sample::Index>(), 0..12)

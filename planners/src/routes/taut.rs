@@ -6,14 +6,19 @@
 //! way is refracted, and where the robot changes its shape it may do so at any point of the rim of the free space of
 //! either state: there the search goes on from points of the segment, and [`super::pull`] slides them afterwards.
 
+mod changes;
+mod missed;
+
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BinaryHeap, HashSet};
+
+use fixedbitset::FixedBitSet;
 
 use super::cone::{Gap, Segment, View};
 use super::graph::RouteGraph;
 use super::mesh::{EPSILON, Exit, NONE};
 use super::parts::{DoorIndex, Entry, Goal, RoomIndex, Start};
-use super::turning::{Gate, Turning};
+use super::turning::Turning;
 use crate::geometry::Point;
 
 /// Points at which a way is refracted or a shape is changed lie at most so far apart, metres; they are slid
@@ -82,15 +87,6 @@ pub(super) enum Wanted {
     Rooms,
 }
 
-/// How much a search looks at.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Care {
-    /// Changes of shape on gates only.
-    Usual,
-    /// Changes on all sides of their areas, where the usual search found no way though doors join the rooms.
-    Full,
-}
-
 /// A goal in a room: where it is, and the hardness of a change of shape and of a leg that have to follow there.
 #[derive(Clone, Copy)]
 struct Target {
@@ -127,7 +123,8 @@ pub(super) struct Search<'g> {
     /// Roots from which a room was looked at already: the room, the point, and to which side.
     looked: HashSet<(RoomIndex, u64, u64, u8)>,
     outcome: Outcome,
-    care: Care,
+    /// Rooms into which shapes are changed on all sides of areas, not on gates only.
+    freely: FixedBitSet,
 }
 
 impl<'g> Search<'g> {
@@ -140,22 +137,19 @@ impl<'g> Search<'g> {
         wanted: Wanted,
         limit: f64,
     ) -> Outcome {
-        let outcome = Self::new(graph, goals, wanted, Care::Usual).run(start, limit);
-        let is_found = |goal: usize| !outcome.goals[goal].is_empty();
-        let is_done = wanted == Wanted::One && (0..goals.len()).any(is_found);
-        if is_done || (0..goals.len()).all(is_found) || outcome.is_cut {
-            return outcome;
+        let mut outcome = Self::new(graph, goals, wanted, FixedBitSet::new()).run(start, limit);
+        let is_found = |goal: &Vec<Found>| !goal.is_empty();
+        let is_done = match wanted {
+            Wanted::One => outcome.goals.iter().any(is_found),
+            Wanted::Goals | Wanted::Rooms => false,
+        };
+        if !is_done && !outcome.is_cut {
+            outcome.look_for_missed(graph, start, goals, wanted, limit);
         }
-        let joined = graph.joined_with(&start.rooms);
-        let is_missed =
-            |goal: usize| !is_found(goal) && goals[goal].rooms.iter().any(|entry| joined[entry.room.index()]);
-        if !(0..goals.len()).any(is_missed) {
-            return outcome;
-        }
-        Self::new(graph, goals, wanted, Care::Full).run(start, limit)
+        outcome
     }
 
-    fn new(graph: &'g RouteGraph, goals: &'g [Goal], wanted: Wanted, care: Care) -> Self {
+    fn new(graph: &'g RouteGraph, goals: &'g [Goal], wanted: Wanted, freely: FixedBitSet) -> Self {
         let mut targets = Vec::new();
         for (index, goal) in goals.iter().enumerate() {
             for &Entry { room, joint } in &goal.rooms {
@@ -202,7 +196,7 @@ impl<'g> Search<'g> {
             bent: vec![f64::INFINITY; turning.bends.len()],
             looked: HashSet::new(),
             outcome,
-            care,
+            freely,
         }
     }
 
@@ -310,6 +304,7 @@ impl<'g> Search<'g> {
             }
         }
         for exit in self.graph.exits.changes(node.room) {
+            self.arrive_by_change(index, &node, *exit);
             self.change(index, &node, *exit);
         }
     }
@@ -389,12 +384,17 @@ impl<'g> Search<'g> {
                 self.reached[room.index()].push((p, cost));
             }
         }
+        let at = samples[0];
+        let cost = node.cost + per_m * node.root.distance(at);
+        self.arrive_in(room, Found { node: index, at, cost, change: None });
+    }
+
+    /// Keeps a way into a room, where ways to all rooms are asked for and none that is known costs as little.
+    fn arrive_in(&mut self, room: RoomIndex, found: Found) {
         if let Some(known) = self.outcome.rooms.get_mut(room.index())
-            && known.is_none()
+            && known.is_none_or(|known| found.cost < known.cost)
         {
-            let at = samples[0];
-            let cost = node.cost + per_m * node.root.distance(at);
-            *known = Some(Found { node: index, at, cost, change: None });
+            *known = Some(found);
         }
     }
 
@@ -408,15 +408,20 @@ impl<'g> Search<'g> {
                 break;
             }
             let at = target.at.unwrap_or_else(|| Self::samples(node).0[0]);
-            if self.outcome.goals[target.goal].len() < MOST_WAYS && node.view.sees(node.root, at) {
+            if node.view.sees(node.root, at) {
                 let weight = target.change.map_or(0.0, |(_, weight)| weight);
                 let cost = node.cost + per_m * node.root.distance(at) + weight + target.leg;
                 let change = target.change.map(|(exit, _)| exit);
-                let found = Found { node: index, at, cost, change };
-                let what = What::Goal(self.found.len() as u32);
-                self.found.push((target.goal, found));
-                self.queue.push(Candidate { least: cost, what });
+                self.arrive_at(target.goal, Found { node: index, at, cost, change });
             }
+        }
+    }
+
+    fn arrive_at(&mut self, goal: usize, found: Found) {
+        if self.outcome.goals[goal].len() < MOST_WAYS {
+            let what = What::Goal(self.found.len() as u32);
+            self.found.push((goal, found));
+            self.queue.push(Candidate { least: found.cost, what });
         }
     }
 
@@ -502,16 +507,6 @@ impl<'g> Search<'g> {
         false
     }
 
-    fn is_near_a_goal(&self, gate: &Segment) -> bool {
-        let is_near = |goal: &Goal| goal.at.is_none_or(|at| gate.nearest_to(at).distance(at) <= NEAR_M);
-        self.goals.iter().any(is_near)
-    }
-
-    fn is_near_a_goal_in(&self, room: RoomIndex, side: &Segment) -> bool {
-        let is_near = |at: Point| side.nearest_to(at).distance(at) <= CLOSE_M;
-        self.targets_in(room).any(|target| target.at.is_some_and(is_near))
-    }
-
     fn targets_in(&self, room: RoomIndex) -> impl Iterator<Item = Target> {
         let first = self.targets.partition_point(|(of, _)| *of < room);
         self.targets[first..].iter().take_while(move |(of, _)| *of == room).map(|(_, target)| *target)
@@ -531,92 +526,6 @@ impl<'g> Search<'g> {
         }
         points
     }
-
-    /// Into another state.
-    fn change(&mut self, index: u32, node: &Node, exit: Exit) {
-        let Exit { door, to: room } = exit;
-        let at_once = self.graph.passage(door);
-        let is_in_steps = self.graph.is_sequence_cheaper(node.room, room);
-        if at_once.is_none() && !is_in_steps || !self.graph.is_entered(room) {
-            return;
-        }
-        let (here, there) = (self.graph.per_m(node.room), self.graph.per_m(room));
-        let reach = |search: &mut Self, p: Point| {
-            if search.graph.is_on_wall(room, p) {
-                return;
-            }
-            let cost = node.cost + node.root.distance(p) * here;
-            // reached at less cost otherwise
-            if search.is_cheaper_in(node.room, p, cost - EPSILON, here) {
-                return;
-            }
-            let steps = if is_in_steps {
-                search.graph.cheapest_changes(node.room, room, p)
-            } else {
-                at_once.map(|weight| vec![(exit, weight)])
-            };
-            let Some(((last, weight), steps)) = steps.as_deref().and_then(<[_]>::split_last) else { return };
-            let weight = *weight;
-            let is_vain = search.is_cheaper_in(room, p, cost + weight + EPSILON, there)
-                || is_cheaper_from(&search.offered[room.index()], p, cost + weight + EPSILON, there);
-            if !is_vain {
-                search.offered[room.index()].push((p, cost + weight));
-                let changed = |before: u32, (exit, weight): &(Exit, f64)| Node {
-                    root: p,
-                    cost: cost + weight,
-                    before,
-                    room: exit.to,
-                    door: exit.door,
-                    bent: false,
-                    view: View::All,
-                };
-                let mut before = index;
-                for step in steps {
-                    search.nodes.push(changed(before, step));
-                    before = search.nodes.len() as u32 - 1;
-                }
-                search.push(changed(before, &(*last, weight)));
-            }
-        };
-        let graph = self.graph;
-        // at the start, and where the body goes on turning
-        let is_turning = || graph[node.door].is_change() && here.to_bits() == there.to_bits();
-        let is_at_once = node.before == NO_NODE || is_turning();
-        let Some(area) = graph[door].crossing.area() else { return };
-        if is_at_once && area.contains(node.root) {
-            reach(self, node.root);
-        }
-        let is_anywhere = self.care == Care::Full || node.before == NO_NODE;
-        for side in area.sides() {
-            // who starts or ends in a strip too thin for gates changes at its edge
-            if !is_anywhere && !self.is_near_a_goal_in(room, &side) {
-                continue;
-            }
-            for side in graph.clear_of_walls(room, side) {
-                let Some(seen) = node.view.of(node.root, side) else { continue };
-                for p in self.points(room, seen, node.root) {
-                    reach(self, p);
-                }
-            }
-        }
-        if self.care == Care::Full {
-            return;
-        }
-        let mut is_step_on_a_way = None;
-        for Gate { segment: gate, is_deep, is_step } in graph.gates(door, node.room) {
-            if !is_deep && !self.is_near_a_goal(gate)
-                || *is_step
-                    && !*is_step_on_a_way.get_or_insert_with(|| graph.is_step_on_a_way(door, node.room))
-            {
-                continue;
-            }
-            if let Some(seen) = node.view.of_gate(node.root, *gate) {
-                for p in self.points(room, seen, node.root) {
-                    reach(self, p);
-                }
-            }
-        }
-    }
 }
 
 impl Outcome {
@@ -625,11 +534,11 @@ impl Outcome {
     pub fn otherwise(&self, graph: &RouteGraph, found: &Found) -> Vec<(u32, u32)> {
         let saved = graph.saved_by_arcs();
         // the rooms of the way, with their nodes and where each is left
-        let mut own: BTreeMap<RoomIndex, (u32, Point)> = BTreeMap::new();
+        let mut own: Vec<Option<(u32, Point)>> = vec![None; graph.rooms().len()];
         let (mut index, mut to) = (found.node, found.at);
         while index != NO_NODE {
             let node = &self.nodes[index as usize];
-            own.entry(node.room).or_insert((index, to));
+            own[node.room.index()].get_or_insert((index, to));
             let door = crossing_of(graph, node);
             to = door.map_or(node.root, |door| door.passed_at(node.root, to));
             index = node.before;
@@ -638,7 +547,7 @@ impl Outcome {
         let mut others: BTreeMap<(u64, u64), (f64, u32, u32)> = BTreeMap::new();
         for &other in &self.passed_over {
             let node = &self.nodes[other as usize];
-            let Some(&(index, to)) = own.get(&node.room) else { continue };
+            let Some((index, to)) = own[node.room.index()] else { continue };
             let mine = &self.nodes[index as usize];
             if mine.bend() == node.bend() {
                 continue;

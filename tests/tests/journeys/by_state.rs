@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used)] // in a test a failed unwrap is a failed test
 
 use adit_tests::TestSite;
+use adit_tests::service::Service;
 
 /// Where on the way from the dock to ward 6 the robot does this: the least and the most x and y.
 fn extent(site: &TestSite, action: &str) -> Option<Vec<f64>> {
@@ -112,4 +113,26 @@ fn any_two_points_are_answered_though_no_start_is_kept_there() {
         waypoints.map(|waypoint| waypoint["state"].as_str().unwrap().to_owned()).collect()
     };
     assert_eq!(states(&points), states(&kept));
+}
+
+#[test]
+fn sql_knows_a_way_to_every_room_to_which_the_service_finds_one() {
+    let site = TestSite::example("clinic").built();
+    let service = Service::start(&site);
+    // rooms that are entered only by squatting down or by turning aside at the end of the way, too
+    let kept = site.sqlite3("SELECT goal, status, coalesce(cost, 0.0) FROM route WHERE start = 'dock'");
+    assert!(kept.len() > 1000, "{}", kept.len());
+    for row in kept.iter().step_by(8) {
+        let [goal, status, cost] = row.split('|').collect::<Vec<_>>().try_into().unwrap();
+        let path = format!("/api/route?start=dock&goal={}", goal.replace(' ', "%20"));
+        let (_, answer) = service.ask("GET", &path, None);
+        assert_eq!(answer["status"], status, "{goal}: {answer}");
+        let (kept, now): (f64, f64) = (cost.parse().unwrap(), answer["cost"].as_f64().unwrap_or(0.0));
+        assert!((kept - now).abs() <= 0.01 * now, "to {goal}: {kept} by SQL, {now} by the service");
+    }
+    let open = kept.iter().filter(|row| row.contains("|ok|")).count();
+    assert!(open > 1050, "{open}");
+    let steps = "SELECT count(*) FROM route r WHERE start = 'dock' AND status = 'ok' AND length(goal) = 2 AND goal GLOB '[a-d]*' AND round(cost, 6) <>
+                 (SELECT round(max(cost), 6) FROM action_sequence WHERE start = 'dock' AND goal = r.goal)";
+    assert_eq!(site.sqlite3(steps), ["0"], "the last step of each sequence costs what its route does");
 }

@@ -169,13 +169,19 @@ impl<'g> Chains<'g> {
     /// # Arguments
     /// `room` is the room in which it lies; `wanted` the number that it gets, if no other node has it.
     fn node(&mut self, step: Step, room: RoomIndex, wanted: Option<i64>, row: TreeRow) -> i64 {
+        let wanted = wanted.filter(|node| !self.rows.contains_key(node));
         if let Some(&node) = self.nodes.get(&step) {
-            if let Some(known) = self.rows.get_mut(&node) {
-                known.clearance = known.clearance.or(row.clearance);
+            let Some(known) = self.rows.get_mut(&node) else { return node };
+            known.clearance = known.clearance.or(row.clearance);
+            if let Some(wanted) = wanted {
+                // a way that costs no more leads through the room
+                let from_room = known.from_room.filter(|_| known.prev.is_some());
+                let row = TreeRow { node: wanted, from_room, ..*known };
+                self.rows.insert(wanted, row);
             }
             return node;
         }
-        let node = wanted.filter(|node| !self.rows.contains_key(node)).unwrap_or_else(|| {
+        let node = wanted.unwrap_or_else(|| {
             self.next -= 1;
             self.next + 1
         });
