@@ -7,7 +7,7 @@ use super::args::SiteArgs;
 use super::output::{json, line, maybe, number, remark, time};
 use crate::error::Result;
 use crate::knowledge::KnowledgeBase;
-use crate::live::report::{Change, Concluded, Report, RouteChange};
+use crate::live::report::{Change, Concluded, Remeasured, Report, RouteChange};
 use crate::site::robots::ONLY_ROBOT;
 use crate::words::number::counted;
 use crate::words::progress::{Silent, Spinner};
@@ -146,11 +146,14 @@ fn conclusions(report: &Report) {
         Cell::Real(value) => number(*value),
         other => other.to_string(),
     };
-    for Concluded { what, property, old, new } in report.conclusions.iter().take(LISTED) {
+    // that doorways are closed is said as such
+    let is_said = |of: &&Concluded| of.what.starts_with("doorways ") && of.property == "closed";
+    let listed: Vec<&Concluded> = report.conclusions.iter().filter(|of| !is_said(of)).collect();
+    for Concluded { what, property, old, new } in listed.iter().take(LISTED) {
         line(&format!("{what}: {property} {} → {}", said(old), said(new)));
     }
-    if report.conclusions.len() > LISTED {
-        line(&format!("and {} more", report.conclusions.len() - LISTED));
+    if listed.len() > LISTED {
+        line(&format!("and {} more", listed.len() - LISTED));
     }
     if report.conclusions.is_empty() && report.rooms.total == 0 && report.course.is_none() {
         line("no rule concludes anything else than before");
@@ -182,16 +185,25 @@ pub fn changes(said: &str, report: &Report) {
             .filter(|(count, _)| *count > 0)
             .map(|(count, what)| counted(count, what))
             .collect();
-        line(&match &changed[..] {
-            [] => "no room or door changed".to_owned(),
-            some => format!("{} changed", some.join(" and ")),
-        });
+        match &changed[..] {
+            [] if report.measures.is_empty() => line("no room or door changed"),
+            [] => {}
+            some => line(&format!("{} changed", some.join(" and "))),
+        }
         for change in report.changes.iter().take(LISTED) {
             line(&format!("  {}: {}", change.what, turned(change)));
         }
         if report.changes.len() > LISTED {
             line(&format!("  and {} more", report.changes.len() - LISTED));
         }
+    }
+    for (measure, Remeasured { rooms, doors }) in &report.measures {
+        let of = match (rooms, doors) {
+            (_, 0) => format!("in {}", counted(*rooms, "room")),
+            (0, _) => format!("at {}", counted(*doors, "door")),
+            _ => format!("in {} and at {}", counted(*rooms, "room"), counted(*doors, "door")),
+        };
+        line(&format!("{measure} changed {of}; `adit route` adds them up"));
     }
     let is_new = |closing: &&String| !said.starts_with(closing.as_str());
     let closings: Vec<&String> = report.closings.iter().filter(is_new).collect();
@@ -202,7 +214,8 @@ pub fn changes(said: &str, report: &Report) {
         line(&format!("and {} more", closings.len() - LISTED));
     }
     line(&of_routes(report));
-    let several = report.routes.changes.iter().any(|change| change.robot != report.routes.changes[0].robot)
+    let several = report.robots > 1
+        || report.routes.changes.iter().any(|change| change.robot != report.routes.changes[0].robot)
         || report.course.is_some() && report.routes.changes.iter().any(|change| change.robot != ONLY_ROBOT);
     for change in report.routes.changes.iter().take(LISTED) {
         let are_both = change.old.is_some() && change.new.is_some();

@@ -45,11 +45,8 @@ impl Close {
     /// The fact that says it.
     pub(super) fn fact(&self, tx: &mut Tx<'_>) -> Result<Tell> {
         let what = self.what.trim();
-        let (class, object) = if tx.site_value(LAYOUT)?.is_some() {
-            of_map(tx, what)?
-        } else {
-            (class_of(tx, what)?, what.to_owned())
-        };
+        let (class, object) =
+            if tx.site_value(LAYOUT)?.is_some() { of_map(tx, what)? } else { named(tx, what)? };
         let (property, value) = match (self.only.as_slice(), self.except.as_slice()) {
             ([], []) => (CLOSED, "true".to_owned()),
             (only, []) => (CLOSED_TO, only.join(", ")),
@@ -90,34 +87,22 @@ pub(super) fn open(
 ) -> Result<Edited> {
     let tell = Close { what: what.to_owned(), ..Close::default() }.fact(tx)?;
     let row = tell.row(tx, site, rules, author)?;
-    let closes = |fact: &&Row| {
-        let value = |name: &str| row.iter().find(|(column, _)| *column == name).map(|(_, cell)| cell.clone());
-        let is_same = |name: &str, of: Option<f64>| match value(name) {
-            Some(adit_db::Cell::Real(real)) => of.is_some_and(|of| (of - real).abs() < 1e-6),
-            _ => of.is_none(),
-        };
-        let ends = fact.segment.map_or([None; 4], |segment| segment.map(Some));
-        fact.class == tell.class
-            && [CLOSED, CLOSED_TO, OPEN_TO].contains(&fact.property.as_str())
-            && fact.key.as_deref().map(adit_db::Cell::from) == value("key")
-            && is_same("x0", ends[0])
-            && is_same("y0", ends[1])
-            && is_same("x1", ends[2])
-            && is_same("y1", ends[3])
-            && (fact.segment.is_some()
-                || is_same("x", fact.at.map(|at| at[0])) && is_same("y", fact.at.map(|at| at[1])))
-    };
     let told = tx.facts_told()?;
+    let mut facts: Vec<&Row> = told.iter().filter(|fact| is_about(fact, &tell.class, &row)).collect();
+    if let Some(doorway) = as_doorway(tx, &tell)? {
+        let row = doorway.row(tx, site, rules, author)?;
+        facts.extend(told.iter().filter(|fact| is_about(fact, &doorway.class, &row)));
+    }
     let opens = |fact: &&Row| fact.property == CLOSED && fact.value == adit_db::Cell::Integer(0);
-    let ids: Vec<i64> = told.iter().filter(closes).filter(|fact| !opens(fact)).map(|fact| fact.id).collect();
-    let is_told = told.iter().filter(closes).any(|fact| opens(&fact));
-    if ids.is_empty() && (is_told || tell.class == "DOORWAYS" && !is_shut(tx, what)?) {
+    let is_told = facts.iter().any(opens);
+    facts.retain(|fact| !opens(fact));
+    if facts.is_empty() && (is_told || tell.class == "DOORWAYS" && !is_shut(tx, what)?) {
         let message = format!("`{what}` is open already");
         return Err(Error::said(Code::TellUsage, message, None));
     }
     let mut last = None;
-    for id in ids {
-        last = Some(tx.remove_row("told", &id.to_string(), author)?);
+    for fact in facts {
+        last = Some(tx.remove_row("told", &fact.id.to_string(), author)?);
     }
     if let Some(entry) = last {
         return Ok(entry);
@@ -127,16 +112,41 @@ pub(super) fn open(
     Ok(tx.add_row("told", &row, author)?)
 }
 
+/// Whether a fact closes or opens what a row of facts is about.
+fn is_about(fact: &Row, class: &str, row: &[(&str, adit_db::Cell)]) -> bool {
+    let value = |name: &str| row.iter().find(|(column, _)| *column == name).map(|(_, cell)| cell.clone());
+    let is_same = |name: &str, of: Option<f64>| match value(name) {
+        Some(adit_db::Cell::Real(real)) => of.is_some_and(|of| (of - real).abs() < 1e-6),
+        _ => of.is_none(),
+    };
+    let ends = fact.segment.map_or([None; 4], |segment| segment.map(Some));
+    fact.class == class
+        && [CLOSED, CLOSED_TO, OPEN_TO].contains(&fact.property.as_str())
+        && fact.key.as_deref().map(adit_db::Cell::from) == value("key")
+        && is_same("x0", ends[0])
+        && is_same("y0", ends[1])
+        && is_same("x1", ends[2])
+        && is_same("y1", ends[3])
+        && (fact.segment.is_some()
+            || is_same("x", fact.at.map(|at| at[0])) && is_same("y", fact.at.map(|at| at[1])))
+}
+
+/// The same, told of the doorway that a named door is.
+fn as_doorway(tx: &mut Tx<'_>, tell: &Tell) -> Result<Option<Tell>> {
+    let is_doorway = tell.class == "NAMED_DOORS" && Building::read(tx)?.doorway_named(&tell.object).is_some();
+    Ok(is_doorway.then(|| Tell { class: "DOORWAYS".to_owned(), ..tell.clone() }))
+}
+
 /// Whether a doorway of this name is closed, by whatever; one that is meant by its point may be.
 fn is_shut(tx: &mut Tx<'_>, what: &str) -> Result<bool> {
     let building = Building::read(tx)?;
     Ok(building.doorway_named(what.trim()).is_none_or(|doorway| doorway.closed == Some(true)))
 }
 
-/// Of which class something is that people have a name for.
-fn class_of(tx: &mut Tx<'_>, what: &str) -> Result<&'static str> {
+/// What people have a name for, with its class. A doorway in which a named door stands is that door, whatever it is called.
+fn named(tx: &mut Tx<'_>, what: &str) -> Result<(&'static str, String)> {
     if place::split(what).is_some() {
-        return Ok("DOORWAYS");
+        return Ok(("DOORWAYS", what.to_owned()));
     }
     let building = Building::read(tx)?;
     let named = Named {
@@ -144,8 +154,11 @@ fn class_of(tx: &mut Tx<'_>, what: &str) -> Result<&'static str> {
         doors: names(tx, "named_doors", "door")?,
         building: &building,
     };
-    if let Some(class) = named.class_of(what) {
-        return Ok(class);
+    let door = building.doorway_named(what).map(Building::name);
+    let door = door.filter(|door| named.class_of(door) == Some("NAMED_DOORS"));
+    let name = door.as_deref().unwrap_or(what);
+    if let Some(class) = named.class_of(name) {
+        return Ok((class, name.to_owned()));
     }
     let known: Vec<String> = named.names().collect();
     let help = did_you_mean(what, known.iter().map(String::as_str));

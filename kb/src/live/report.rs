@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use adit_db::Cell;
 use adit_db::conclusion::Derivation;
+use adit_db::measure::Measures;
 use adit_db::room::Room;
 use adit_db::schema::Row;
 use adit_db::tree::{Start, TreeRow};
@@ -256,8 +257,12 @@ pub struct Report {
     pub spaces: usize,
     /// How many doorways are between them.
     pub doorways: usize,
+    /// How many robots of their own rooms there are.
+    pub robots: usize,
     /// The rooms and doors that changed; none where all were cut anew.
     pub changes: Vec<Change>,
+    /// Of each measure how many rooms and doors take otherwise much of it.
+    pub measures: BTreeMap<String, Remeasured>,
     /// How many values rules conclude of other things than rooms and doors.
     pub concluded: usize,
     /// What rules say otherwise of them.
@@ -284,6 +289,13 @@ pub struct Report {
     pub gaps: Vec<String>,
     /// Rows of tables that no rule can ever choose.
     pub dominated: Vec<Dominated>,
+}
+
+/// How many rooms and doors take otherwise much of a measure than before.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Remeasured {
+    pub rooms: usize,
+    pub doors: usize,
 }
 
 /// A value that rules conclude otherwise than before.
@@ -352,6 +364,7 @@ impl Report {
         let graph = state.graph();
         let (mut rooms, mut doors) = (Counts::all(graph.rooms.len()), Counts::all(graph.doors.len()));
         let mut changes = Vec::new();
+        let mut measures: BTreeMap<String, Remeasured> = BTreeMap::new();
         if let Some(weighed) = weighed {
             let room = |(room, weight): &(RoomIndex, Weight)| {
                 let old = &before.graph.rooms[room.index()];
@@ -365,6 +378,18 @@ impl Report {
             rooms.changed = changes.len();
             changes.extend(weighed.doors.iter().filter_map(door));
             doors.changed = changes.len() - rooms.changed;
+            for (room, weight) in &weighed.rooms {
+                let old = before.graph.rooms[room.index()].weight();
+                for measure in remeasured(&old, weight) {
+                    measures.entry(measure).or_default().rooms += 1;
+                }
+            }
+            for (door, weight) in &weighed.doors {
+                let old = before.graph.doors[door.index()].weight();
+                for measure in remeasured(&old, weight) {
+                    measures.entry(measure).or_default().doors += 1;
+                }
+            }
         }
         let lost = state.told.lost(&state.attached);
         let idle = state.told.idle_hours(&state.knowledge);
@@ -379,9 +404,11 @@ impl Report {
             generation: state.generation,
             spaces: graph.building.spaces.len(),
             doorways: graph.building.doorways.len(),
+            robots: graph.robots().len(),
             rooms,
             doors,
             changes,
+            measures,
             concluded: 0,
             course: state.courses.as_ref().map(|courses| courses.summary()),
             conclusions: Vec::new(),
@@ -409,6 +436,7 @@ impl Report {
             "doors": self.doors,
             "cut_anew": self.cut_anew,
             "changes": self.changes,
+            "measures": self.measures,
             "concluded": self.concluded,
             "map": self.course,
             "conclusions": self.conclusions,
@@ -452,6 +480,16 @@ impl Change {
             new_passable: new.passable.value,
         })
     }
+}
+
+/// The measures of which otherwise much is taken.
+fn remeasured(old: &Weight, new: &Weight) -> Vec<String> {
+    if old.measures == new.measures {
+        return Vec::new();
+    }
+    let [old, new] = [old, new].map(|weight| Measures::of(weight.measures.as_deref()).0);
+    let names = old.keys().chain(new.keys().filter(|name| !old.contains_key(*name)));
+    names.filter(|name| old.get(*name) != new.get(*name)).cloned().collect()
 }
 
 /// So many places are named.

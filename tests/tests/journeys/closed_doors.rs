@@ -208,3 +208,32 @@ fn kept_routes_questions_previews_and_sql_agree_on_what_is_closed() {
         assert_eq!((&again.steps, &again.waypoints), (&before.steps, &before.waypoints), "to the bit");
     }
 }
+
+#[test]
+fn a_named_door_is_closed_and_opened_by_its_own_name_and_by_that_of_the_doorway_in_which_it_stands() {
+    let site = TestSite::example("starter");
+    let door = "[[door]]\nname = \"ward door\"\nfrom = [5.9, 3.0]\nto = [5.9, 4.0]\n";
+    site.write(
+        "site.toml",
+        format!(
+            "name = \"ward\"\nmap = \"map.toml\"\nrobots = \"robots.toml\"\nrooms = \"by-state\"\n{door}"
+        ),
+    );
+    let site = site.built();
+    let is_open = || {
+        let status = site.sqlite3("SELECT status FROM route WHERE start = 'home' AND goal = 'window'");
+        status == ["ok"]
+    };
+    for (close, open) in [("ward door", "doorway 1"), ("doorway 1", "ward door")] {
+        site.adit("close", &[close]).expect_status(0);
+        assert!(!is_open(), "closed as {close}");
+        site.adit("open", &[open]).expect_status(0);
+        assert!(is_open(), "closed as {close}, opened as {open}");
+        assert_eq!(site.sqlite3("SELECT count(*) FROM told"), ["0"], "no fact stays behind");
+    }
+    // whoever tells it of the doorway itself, too
+    site.adit("tell", &["DOORWAYS", "doorway 1", "closed", "true"]).expect_status(0);
+    site.adit("close", &["ward door"]).expect_status(0);
+    site.adit("open", &["ward door"]).expect_status(0);
+    assert!(is_open());
+}
