@@ -31,6 +31,44 @@ pub(crate) fn own_kind(class: &str, property: &str) -> Option<&'static str> {
     OWN.iter().find(|own| own.0 == class && own.1 == property).map(|own| own.2)
 }
 
+/// Zones of VDA 5050 that an area may say that it is; the two others are said otherwise.
+const ZONES: [&str; 8] = [
+    "RELEASE",
+    "COORDINATED_REPLANNING",
+    "ACTION",
+    "LINE_GUIDED",
+    "PRIORITY",
+    "PENALTY",
+    "DIRECTED",
+    "BIDIRECTED",
+];
+
+/// What the value of one of [`OWN`] has to be, and where it is meant otherwise, how that is said; `None` where it can be.
+pub(crate) fn wanted(
+    class: &str,
+    property: &str,
+    value: &Property,
+) -> Option<(String, Option<&'static str>)> {
+    let number = |is_right: fn(f64) -> bool, wanted: &str| match value {
+        Property::Number(number) if !is_right(*number) => Some((wanted.to_owned(), None)),
+        _ => None,
+    };
+    match (class, property, value) {
+        (AREAS, "speed_limit", _) => number(|of| of > 0.0, "more than 0, metres a second"),
+        (AREAS, "speed_percent", _) => number(|of| of > 0.0 && of <= 100.0, "more than 0 and at most 100"),
+        (AREAS, "zone_factor", _) => number(|of| (0.0..=1.0).contains(&of), "from 0 to 1"),
+        (AREAS, "zone", Property::Text(zone)) if !ZONES.contains(&zone.as_str()) => {
+            let help = match zone.as_str() {
+                "BLOCKED" => Some("an area of the kind `keep-out` is not entered"),
+                "SPEED_LIMIT" => Some("`speed_limit` says how fast one may be there, metres a second"),
+                _ => None,
+            };
+            Some((format!("one of {}", ZONES.join(", ")), help))
+        }
+        _ => None,
+    }
+}
+
 /// Gives the named areas and doors of the world.
 ///
 /// AREAS by name: `area` (the name), `kind`, `x` and `y` (its middle), `closed`, `hardness_factor`,

@@ -14,6 +14,7 @@ mod settings;
 mod source;
 mod suggest;
 pub mod toml_map;
+mod unique;
 mod value;
 mod yaml;
 mod zone_set;

@@ -9,6 +9,7 @@ use serde_json::Value;
 use serde_json::value::RawValue;
 
 use super::diagnostic::{Code, Problem, Text};
+use super::unique::Unique;
 use super::value::{At, Read, Step};
 use super::yaml::Yaml;
 
@@ -43,10 +44,11 @@ impl<'t> Source<'t> {
             })?;
             Values::Yaml(yaml)
         } else {
-            let json = serde_json::from_str(text).map_err(|error| {
+            let Unique(json) = serde_json::from_str(text).map_err(|error| {
                 let words = error.to_string();
                 let place = format!(" at line {} column {}", error.line(), error.column());
-                let words = format!("not JSON: {}", words.strip_suffix(&place).unwrap_or(&words));
+                let words = words.strip_suffix(&place).unwrap_or(&words);
+                let words = if error.is_data() { words.to_owned() } else { format!("not JSON: {words}") };
                 let start = byte(text, error.line(), error.column());
                 named.problem(Code::Syntax, &(start..start + 1), words)
             })?;

@@ -1,5 +1,6 @@
 //! What people call by a name: areas and doors that a site lays over its map.
 
+use std::fmt;
 use std::hash::{Hash, Hasher};
 
 use super::Shape;
@@ -40,6 +41,16 @@ pub enum Property {
     Number(f64),
     Text(String),
     Truth(bool),
+}
+
+impl fmt::Display for Property {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Number(number) => number.fmt(f),
+            Self::Text(text) => write!(f, "`{text}`"),
+            Self::Truth(truth) => truth.fmt(f),
+        }
+    }
 }
 
 impl Property {

@@ -84,6 +84,13 @@ fn what_cannot_be_laid_is_refused_in_words_and_nothing_is_kept() {
         (&["area", "home", "1,1 2,2"], "the map has a place `home` already"),
         (&["area", "wet", "1,1 2,2", "--with", "hardnes_factor=2"], "did you mean `hardness_factor`?"),
         (&["area", "wet", "1,1 2,2", "--with", "hardness_factor=much"], "holds numbers"),
+        (&["area", "wet", "1,1 2,2", "--with", "zone_factor=1.5"], "must be from 0 to 1, not 1.5"),
+        (&["area", "wet", "1,1 2,2", "--with", "speed_limit=0"], "must be more than 0"),
+        (
+            &["area", "wet", "1,1 2,2", "--with", "zone=BLOCKED"],
+            "an area of the kind `keep-out` is not entered",
+        ),
+        (&["area", "wet", "1,1 2,2", "--with", "zone=FOO"], "must be one of RELEASE, COORDINATED_REPLANNING"),
         (&["area", "wet", "1,1 2,2", "--until", "2020-01-01"], "that is over"),
         (&["obstacle", "crate", "1,1 2,2", "--kind", "wet"], "only an area has a kind"),
         (&["obstacle", "crate", "1,1"], "two corners or more"),

@@ -157,6 +157,8 @@ fn a_zone_set_that_is_wrong_is_refused_at_its_line() {
     site.edit("site.toml", "zones.yaml", "zones.json");
     site.write("zones.json", "{\n  \"mapId\": \"m\",\n  \"zones\": [}\n");
     site.adit("build", &[]).expecting(2).complains(&["not JSON: expected value", "zones.json:3:13"]);
+    site.write("zones.json", "{\n  \"mapId\": \"m\",\n  \"zones\": [],\n  \"mapId\": \"n\"\n}\n");
+    site.adit("build", &[]).expecting(2).complains(&["the key `mapId` stands twice", "zones.json:4:"]);
     site.edit("site.toml", "zones.json", "none.json");
     site.adit("build", &[]).expecting(2).complains(&["none.json` cannot be read"]);
 }

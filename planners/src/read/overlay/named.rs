@@ -9,7 +9,7 @@ use super::super::suggest::nearest;
 use super::names::Names;
 use super::outline;
 use crate::geometry::Point;
-use crate::overlays::{AREAS, NAMED_DOORS, own_kind};
+use crate::overlays::{self, AREAS, NAMED_DOORS, own_kind};
 use crate::world::{Area, NamedDoor, Property, Shape};
 
 /// A property that an item gives: its class, its name and the kind of its values.
@@ -123,6 +123,12 @@ fn further(
         };
         if let Some(problem) = other_kind(item, &located, given) {
             problems.push(problem);
+            continue;
+        }
+        if let Some((wanted, help)) = overlays::wanted(class, &name, &value) {
+            let message = format!("`{name}` of {} must be {wanted}, not {value}", item.what);
+            let problem = item.text.problem(Code::Impossible, &located.span, message);
+            problems.push(help.into_iter().fold(problem, Problem::with_help));
             continue;
         }
         given.push(located);
