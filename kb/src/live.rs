@@ -27,7 +27,7 @@ use crate::words::progress::{Silent, Stage};
 pub(crate) use memory::Memory;
 use memory::{Accepted, Promptness};
 pub use renewal::Renewal;
-pub use view::View;
+pub use view::{View, Ways};
 
 /// A built site, ready for many edits. What it writes is what [`KnowledgeBase::edit`] would write.
 ///

@@ -1,6 +1,6 @@
 //! What questions are answered from: the site as it was after some edit, which no later edit changes.
 
-use std::sync::Arc;
+use std::sync::{Arc, Weak};
 
 use adit_db::place::Place;
 use adit_planners::routes::Goal;
@@ -32,7 +32,48 @@ pub struct View {
     within: Option<f64>,
 }
 
+/// What the routes of a moment follow from, held without keeping it: graphs that nobody reads any more are written to again.
+#[derive(Clone, Debug)]
+pub struct Ways {
+    inputs: Weak<Inputs>,
+    world: Weak<World>,
+    graph: Weak<SiteGraph>,
+    courses: Option<Weak<Courses>>,
+    gauge: Weak<Gauge>,
+    robots: Arc<[String]>,
+}
+
+impl Ways {
+    /// Whether the same questions have the same routes at another moment, for nothing that they follow from was touched.
+    pub fn are_those_of(&self, view: &View) -> bool {
+        // an address is not given out anew as long as somebody knows it weakly
+        let are_courses = match (&self.courses, &view.courses) {
+            (Some(one), Some(other)) => one.as_ptr() == Arc::as_ptr(other),
+            (None, None) => true,
+            _ => false,
+        };
+        are_courses
+            && self.inputs.as_ptr() == Arc::as_ptr(&view.inputs)
+            && self.world.as_ptr() == Arc::as_ptr(&view.world)
+            && self.graph.as_ptr() == Arc::as_ptr(&view.graph)
+            && self.gauge.as_ptr() == Arc::as_ptr(&view.gauge)
+            && self.robots == view.robots
+    }
+}
+
 impl View {
+    /// What its routes follow from.
+    pub fn ways(&self) -> Ways {
+        Ways {
+            inputs: Arc::downgrade(&self.inputs),
+            world: Arc::downgrade(&self.world),
+            graph: Arc::downgrade(&self.graph),
+            courses: self.courses.as_ref().map(Arc::downgrade),
+            gauge: Arc::downgrade(&self.gauge),
+            robots: Arc::clone(&self.robots),
+        }
+    }
+
     pub(super) fn of(memory: &Memory) -> Self {
         Self {
             site: Arc::clone(&memory.state.site),

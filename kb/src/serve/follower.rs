@@ -74,7 +74,7 @@ impl Followers {
             within: known.question.within,
             errand: Errand::default(),
         };
-        let held = Held::of(question.answer(view)?, view.graph());
+        let held = Held::of(question.answer(view)?, view);
         let answer = Arc::clone(&held.answer);
         known.held.send_replace(Arc::new(held));
         Ok(answer)
@@ -92,7 +92,7 @@ impl Follower {
         let answer = question.answer(view)?;
         // whose route it is does not change when other robots come
         let question = Arc::new(Question { robot: Some(answer.robot.clone()), ..question });
-        let held = Arc::new(Held::of(answer, view.graph()));
+        let held = Arc::new(Held::of(answer, view));
         let name = token::random::<BYTES>()?;
         let (sender, moved) = watch::channel(Arc::clone(&held));
         let known = Known { question: Arc::clone(&question), held: Arc::new(sender) };
@@ -138,9 +138,13 @@ impl Follower {
         if self.held.answer.generation == seen.view.generation() {
             return None;
         }
-        let (held, question) = (Arc::clone(&self.held), Arc::clone(&self.question));
-        let found = self.shared.renew(move || held.renewed(&question, &seen.view)).await;
-        let now = Arc::new(found.ok()?);
+        let now = if let Some(kept) = self.held.kept(&seen.view) {
+            kept
+        } else {
+            let (held, question) = (Arc::clone(&self.held), Arc::clone(&self.question));
+            self.shared.renew(move || held.renewed(&question, &seen.view)).await.ok()?
+        };
+        let now = Arc::new(now);
         let before = std::mem::replace(&mut self.held, Arc::clone(&now));
         let is_kept = self.shared.followers.all().get(&self.name).is_some_and(|known| {
             known.held.send_if_modified(|held| {

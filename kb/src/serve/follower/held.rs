@@ -6,8 +6,8 @@ use adit_planners::geometry::{Point, Segment};
 
 use crate::answer::{Answer, Status};
 use crate::error::problem::Problem;
-use crate::graph::{Building, SiteGraph};
-use crate::live::View;
+use crate::graph::Building;
+use crate::live::{View, Ways};
 use crate::serve::question::Question;
 
 /// A route, and what was closed when it was found.
@@ -15,11 +15,12 @@ pub struct Held {
     pub answer: Arc<Answer>,
     /// Where something is closed to its robot, and the sentence that says so.
     pub closed: Vec<(Segment, String)>,
+    ways: Ways,
 }
 
 impl Held {
-    pub fn of(answer: Answer, graph: &SiteGraph) -> Self {
-        let building = &graph.building;
+    pub fn of(answer: Answer, view: &View) -> Self {
+        let building = &view.graph().building;
         let doorways = building
             .closed()
             .map(|doorway| (Building::segment(doorway), building.why_closed(doorway.doorway)));
@@ -27,7 +28,16 @@ impl Held {
             let [x0, y0, x1, y1] = line.segment;
             (Segment::new(Point::new(x0, y0), Point::new(x1, y1)), building.why_told_closed(line))
         });
-        Self { closed: doorways.chain(lines).collect(), answer: Arc::new(answer) }
+        Self { closed: doorways.chain(lines).collect(), answer: Arc::new(answer), ways: view.ways() }
+    }
+
+    /// The same route, of the site as it now is; `None` where it might be another one.
+    pub fn kept(&self, view: &View) -> Option<Self> {
+        self.ways.are_those_of(view).then(|| Self {
+            answer: Arc::new(Answer { generation: view.generation(), ..(*self.answer).clone() }),
+            closed: self.closed.clone(),
+            ways: self.ways.clone(),
+        })
     }
 
     /// The route from the same place as the site now is. Where its ends are none any more, that is why there is no way.
@@ -41,7 +51,7 @@ impl Held {
             let blank = Answer::blank(robot, start, &question.goals, view.generation());
             Answer { status: Status::NoRoute, reason, nearest, ..blank }
         });
-        Self::of(answer, view.graph())
+        Self::of(answer, view)
     }
 
     /// Whether it is the same route, whatever became of the rest of the site.
