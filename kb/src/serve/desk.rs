@@ -164,6 +164,7 @@ impl Desk {
             rooms: outcome.rooms,
             doors: outcome.doors,
             anew: outcome.anew,
+            ways: !self.shared.view.load().view.ways().are_those_of(&seen.view),
             at: seen.since.clone(),
         };
         self.shared.show(seen);

@@ -52,6 +52,8 @@ pub struct Changed {
     pub doors: usize,
     /// Whether all was derived anew.
     pub anew: bool,
+    /// Whether a route may be another one than before: something was touched that routes follow from.
+    pub ways: bool,
     /// When, in UTC.
     pub at: String,
 }

@@ -304,3 +304,38 @@ fn hold(heard: &Receiver<(Instant, Value)>, held: &mut Value, now: &Value) -> Op
     }
     came
 }
+
+#[test]
+fn an_edit_that_touches_no_way_says_so_and_followers_go_on_from_there() {
+    let site = TestSite::example("starter").with(
+        "site.toml",
+        "name = \"ward\"\nmap = \"map.toml\"\nrobots = \"robots.toml\"\nrooms = \"by-state\"\n",
+    );
+    std::fs::create_dir_all(site.path().join("tables")).unwrap();
+    site.write("tables/vehicles.csv", "vehicle,goal\nv1,home\n");
+    let site = site.built();
+    let service = Service::start(&site);
+    let mut events = service.events();
+    events.next("hello");
+    let mut follower = service.follow("start=home&goal=window");
+    let first = follower.next("route");
+    let goal = json!({"kind": "set", "table": "vehicles", "key": "v1", "column": "goal", "value": "window"});
+    edit(&service, &goal, "an errand");
+    let changed = events.next("changed");
+    assert_eq!((&changed["ways"], &changed["rooms"]), (&false.into(), &0.into()), "{changed}");
+    close(&service, "doorway 1");
+    assert_eq!(events.next("changed")["ways"], true);
+    let lost = follower.next("route");
+    assert_eq!(lost["route"]["status"], "no_route", "{lost}");
+    open(&service, "doorway 1");
+    let again = follower.next("route");
+    assert_eq!(route(&again["route"]), route(&first["route"]));
+    let faster =
+        json!({"kind": "set", "table": "robots", "key": "robot/STAND", "column": "speed", "value": 0.4});
+    edit(&service, &faster, "a careful day");
+    for _ in 0..2 {
+        let changed = events.next("changed");
+        assert_eq!(changed["ways"], true, "{changed}");
+    }
+    assert_ne!(follower.next("route")["route"]["measures"], first["route"]["measures"]);
+}

@@ -187,9 +187,7 @@ pub async fn events(site: Site, heard: UnboundedSender<Heard>) {
             "changed" => {
                 changed.notify_one();
                 let said: Value = serde_json::from_str(data).unwrap_or_default();
-                // what vehicles say changes no way, unless rules make something of it
-                let is_ours = said["why"] == SAID && said["rooms"] == 0 && said["doors"] == 0;
-                if !is_ours || said["what"].as_str().is_some_and(|what| what.contains("by rule")) {
+                if said["ways"] != false {
                     let _ = heard.send(Heard::Floor);
                 }
             }
