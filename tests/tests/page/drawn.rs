@@ -23,7 +23,7 @@ async fn a_corridor_is_closed_beside_its_picture_and_the_way_is_drawn_anew() {
     browser.find("#picture svg path").await;
     browser.says("#route-card", "junction 3").await;
     let drawn = "document.querySelector('#picture svg').outerHTML";
-    let before = browser.value(drawn).await;
+    browser.run(&format!("window.before = {drawn}")).await;
     browser.screenshot("corridors").await;
     browser.run("document.querySelector(\"[data-table='channels']\").open = true").await;
     let choose = "const choice = document.querySelector(\"[data-table='channels'] [data-key='2'] select\");
@@ -35,7 +35,7 @@ async fn a_corridor_is_closed_beside_its_picture_and_the_way_is_drawn_anew() {
     browser.click("#save").await;
     browser.says("#saved", "Saved").await;
     browser.says("#route-card", "channel 4").await;
-    assert_ne!(browser.value(drawn).await, before, "the way is drawn anew");
+    browser.until(&format!("{drawn} !== window.before"), "the way drawn anew").await;
     assert_eq!(site.sqlite3("SELECT closed FROM channels WHERE channel = 2"), ["1"]);
     browser.click("#undo").await;
     browser.says("#route-card", "channel 2").await;
