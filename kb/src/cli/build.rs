@@ -147,7 +147,9 @@ fn conclusions(report: &Report) {
         other => other.to_string(),
     };
     // that doorways are closed is said as such
-    let is_said = |of: &&Concluded| of.what.starts_with("doorways ") && of.property == "closed";
+    let is_said = |of: &&Concluded| {
+        of.what.starts_with("doorways ") && of.property == "closed" && !report.closings.is_empty()
+    };
     let listed: Vec<&Concluded> = report.conclusions.iter().filter(|of| !is_said(of)).collect();
     for Concluded { what, property, old, new } in listed.iter().take(LISTED) {
         line(&format!("{what}: {property} {} → {}", said(old), said(new)));

@@ -378,18 +378,12 @@ impl Report {
             rooms.changed = changes.len();
             changes.extend(weighed.doors.iter().filter_map(door));
             doors.changed = changes.len() - rooms.changed;
-            for (room, weight) in &weighed.rooms {
-                let old = before.graph.rooms[room.index()].weight();
-                for measure in remeasured(&old, weight) {
-                    measures.entry(measure).or_default().rooms += 1;
-                }
-            }
-            for (door, weight) in &weighed.doors {
-                let old = before.graph.doors[door.index()].weight();
-                for measure in remeasured(&old, weight) {
-                    measures.entry(measure).or_default().doors += 1;
-                }
-            }
+            let old = |room: &RoomIndex| before.graph.rooms[room.index()].weight();
+            let rooms = weighed.rooms.iter().flat_map(|(room, weight)| remeasured(&old(room), weight));
+            rooms.for_each(|measure| measures.entry(measure).or_default().rooms += 1);
+            let old = |door: &DoorIndex| before.graph.doors[door.index()].weight();
+            let doors = weighed.doors.iter().flat_map(|(door, weight)| remeasured(&old(door), weight));
+            doors.for_each(|measure| measures.entry(measure).or_default().doors += 1);
         }
         let lost = state.told.lost(&state.attached);
         let idle = state.told.idle_hours(&state.knowledge);

@@ -103,6 +103,8 @@ pub(super) struct Search<'g> {
     turning: &'g Turning,
     goals: &'g [Goal],
     wanted: Wanted,
+    /// Whether a way may end anywhere in a room, not at a point alone.
+    ends_in_rooms: bool,
     /// For each room the goals in it.
     targets: Vec<(RoomIndex, Target)>,
     /// The least hardness of a metre anywhere.
@@ -138,14 +140,7 @@ impl<'g> Search<'g> {
         limit: f64,
     ) -> Outcome {
         let mut outcome = Self::new(graph, goals, wanted, FixedBitSet::new()).run(start, limit);
-        let is_found = |goal: &Vec<Found>| !goal.is_empty();
-        let is_done = match wanted {
-            Wanted::One => outcome.goals.iter().any(is_found),
-            Wanted::Goals | Wanted::Rooms => false,
-        };
-        if !is_done && !outcome.is_cut {
-            outcome.look_for_missed(graph, start, goals, wanted, limit);
-        }
+        outcome.look_for_missed(graph, start, goals, wanted, limit);
         outcome
     }
 
@@ -185,6 +180,7 @@ impl<'g> Search<'g> {
             turning,
             goals,
             wanted,
+            ends_in_rooms: wanted == Wanted::Rooms || goals.iter().any(|goal| goal.at.is_none()),
             targets,
             least_per_m: graph.least_per_m(),
             saved_by_arcs: graph.saved_by_arcs(),
@@ -304,7 +300,9 @@ impl<'g> Search<'g> {
             }
         }
         for exit in self.graph.exits.changes(node.room) {
-            self.arrive_by_change(index, &node, *exit);
+            if self.ends_in_rooms {
+                self.arrive_by_change(index, &node, *exit);
+            }
             self.change(index, &node, *exit);
         }
     }
@@ -391,11 +389,15 @@ impl<'g> Search<'g> {
 
     /// Keeps a way into a room, where ways to all rooms are asked for and none that is known costs as little.
     fn arrive_in(&mut self, room: RoomIndex, found: Found) {
-        if let Some(known) = self.outcome.rooms.get_mut(room.index())
-            && known.is_none_or(|known| found.cost < known.cost)
-        {
-            *known = Some(found);
+        if self.is_news(room, found.cost) {
+            self.outcome.rooms[room.index()] = Some(found);
         }
+    }
+
+    /// Whether ways to all rooms are asked for, and none into this one is known that costs as little.
+    fn is_news(&self, room: RoomIndex, cost: f64) -> bool {
+        let known = self.outcome.rooms.get(room.index());
+        known.is_some_and(|known| known.is_none_or(|known| cost < known.cost))
     }
 
     /// The goals in the room.

@@ -89,9 +89,7 @@ impl Search<'_> {
         let cost = node.cost + node.root.distance(p) * graph.per_m(node.room);
         let changes = self.changes_at(p, node.room, exit);
         let Some(&(last, weight)) = changes.last() else { return };
-        let known = self.outcome.rooms.get(room.index());
-        let is_news = known.is_some_and(|known| known.is_none_or(|known| cost + weight < known.cost));
-        if goals.is_empty() && !is_news {
+        if goals.is_empty() && !self.is_news(room, cost + weight) {
             return;
         }
         let node = self.all_but_the_last(index, (p, cost), &changes).before;
@@ -113,8 +111,8 @@ impl Search<'_> {
             .min_by(|one, two| node.root.distance(*one).total_cmp(&node.root.distance(*two)))
     }
 
-    /// The changes of shape at a point that together lead where one does, each with what they cost up to it; none where
-    /// there are none.
+    /// The changes of shape at a point that together lead where one does, each with what they cost up to it; empty where nothing
+    /// leads there.
     fn changes_at(&self, p: Point, from: RoomIndex, exit: Exit) -> Vec<(Exit, f64)> {
         if self.graph.is_sequence_cheaper(from, exit.to) {
             self.graph.cheapest_changes(from, exit.to, p).unwrap_or_default()

@@ -19,11 +19,15 @@ impl Outcome {
         wanted: Wanted,
         limit: f64,
     ) {
-        let joined = graph.joined_with(&start.rooms);
+        let mut joined = None;
         for is_everywhere in [false, true] {
-            let missed = Missed::of(self, goals, &joined);
+            if self.is_cut || self.has(wanted) {
+                return;
+            }
+            let joined = joined.get_or_insert_with(|| graph.joined_with(&start.rooms));
+            let missed = Missed::of(self, goals, joined);
             let goals = missed.as_goals(goals);
-            if goals.is_empty() || self.is_cut {
+            if goals.is_empty() {
                 return;
             }
             let mut freely = FixedBitSet::with_capacity(graph.rooms().len());
@@ -34,6 +38,17 @@ impl Outcome {
             }
             let wanted = if wanted == Wanted::One { Wanted::One } else { Wanted::Goals };
             self.add(Search::new(graph, &goals, wanted, freely).run(start, limit), missed);
+        }
+    }
+
+    /// Whether all that was asked for is found.
+    fn has(&self, wanted: Wanted) -> bool {
+        let mut goals = self.goals.iter().map(|found| !found.is_empty());
+        match wanted {
+            Wanted::One => goals.any(|is_found| is_found),
+            Wanted::Goals | Wanted::Rooms => {
+                goals.all(|is_found| is_found) && self.rooms.iter().all(Option::is_some)
+            }
         }
     }
 
