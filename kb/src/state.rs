@@ -24,7 +24,7 @@ use adit_planners::world::World;
 
 use crate::error::Result;
 use crate::graph::gauge::{Gauge, Sizes};
-use crate::graph::pairs::{self, From, Known};
+use crate::graph::pairs::{self, Known, PlaceCosts};
 use crate::graph::{Building, SiteGraph};
 use crate::knowledge::inputs::Inputs;
 use crate::knowledge::told::{Attached, Told};
@@ -67,7 +67,7 @@ pub struct State {
     pending: Option<Pending>,
     /// Number of the knowledge base's state.
     pub generation: u64,
-    /// Routes between places, as far as previews asked for them.
+    /// Routes between places, as far as anybody asked for them.
     pub(crate) known: Arc<Known>,
     pub(crate) patience: Duration,
     /// How far ends of routes may be moved to where something fits, metres; `None`: not at all.
@@ -148,28 +148,15 @@ impl State {
         self.twin.prepare();
     }
 
-    /// What routes between places cost once a step is accepted: robot, start, goal and cost.
-    pub(crate) fn place_costs(&self, step: &Step) -> Vec<(String, String, String, f64)> {
+    /// What routes between places cost once a step is accepted.
+    pub(crate) fn place_costs(&self, step: &Step) -> PlaceCosts {
         if let Some(courses) = &step.courses {
-            let costs = courses.costs().into_iter();
-            let named = |([robot, start, goal], cost): ([&str; 3], Option<f64>)| {
-                Some((robot.to_owned(), start.to_owned(), goal.to_owned(), cost?))
-            };
-            return costs.filter_map(named).collect();
+            return courses.place_costs();
         }
         let (graph, robots) = (self.graph_after(step), step.told.robots());
-        let places = graph.places.len();
-        let all: Vec<From> =
-            (0..robots.len()).flat_map(|robot| (0..places).map(move |place| (robot, place))).collect();
-        let rows = pairs::rows((graph, self.gauge_after(step)), &robots, &all, None);
-        let name = |place: usize| graph.places[place].place.clone();
-        let costs = rows.iter().flat_map(|((robot, start), row)| {
-            let robot = robots[*robot].clone();
-            row.iter().enumerate().filter_map(move |(goal, found)| {
-                Some((robot.clone(), name(*start), name(goal), found.as_ref()?.cost))
-            })
-        });
-        costs.collect()
+        let all = pairs::starts(graph, &robots);
+        let rows = pairs::rows((graph, self.gauge_after(step)), &robots, &all, || true);
+        pairs::costs(graph, &robots, &rows)
     }
 
     /// The robots, in the order of their names.

@@ -104,14 +104,14 @@ impl State {
             return Ok(());
         }
         let costs = self.place_costs(step);
-        let text = |of: fn(&(String, String, String, f64)) -> &String| -> Column {
-            costs.iter().map(|row| Some(of(row).clone())).collect()
+        let text = |of: fn(&(String, String, String)) -> &String| -> Column {
+            costs.keys().map(|ends| Some(of(ends).clone())).collect()
         };
         let table = Table::default()
-            .with("robot", text(|row| &row.0))
-            .with("start", text(|row| &row.1))
-            .with("goal", text(|row| &row.2))
-            .with("cost", costs.iter().map(|row| Some(row.3)).collect::<Column>());
+            .with("robot", text(|ends| &ends.0))
+            .with("start", text(|ends| &ends.1))
+            .with("goal", text(|ends| &ends.2))
+            .with("cost", costs.values().map(|cost| Some(*cost)).collect::<Column>());
         classes::assert(&mut self.knowledge, ROUTES, &table, false)
     }
 

@@ -1,8 +1,7 @@
-//! Routes between places, from each place to all others, as far as a deadline lets them be found.
+//! Routes between places, from each place to all others, as far as there is time to find them.
 
 use std::collections::BTreeMap;
 use std::sync::Mutex;
-use std::time::Instant;
 
 use adit_planners::routes::{CompactGraph, CompactTree, Goal, RoomIndex};
 use rayon::prelude::*;
@@ -16,6 +15,9 @@ pub type From = (usize, usize);
 
 /// Routes from one start, by place; `None` where there is none.
 pub type Row = Vec<Option<Found>>;
+
+/// Costs of the routes between places, by robot, start and goal.
+pub type PlaceCosts = BTreeMap<(String, String, String), f64>;
 
 /// A route between two places.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,17 +33,17 @@ pub struct Found {
 pub struct Known(Mutex<BTreeMap<From, Row>>);
 
 impl Known {
-    /// The routes from these starts, in their order; those not known yet are found until the deadline.
+    /// The routes from these starts; those not known yet are found while it goes on.
     pub fn rows(
         &self,
         (graph, gauge): (&SiteGraph, &Gauge),
         robots: &[String],
         wanted: &[From],
-        deadline: Instant,
+        goes_on: impl Fn() -> bool,
     ) -> BTreeMap<From, Row> {
         let mut known = self.0.lock().map(|known| known.clone()).unwrap_or_default();
         let missing: Vec<From> = wanted.iter().filter(|from| !known.contains_key(from)).copied().collect();
-        let found = rows((graph, gauge), robots, &missing, Some(deadline));
+        let found = rows((graph, gauge), robots, &missing, goes_on);
         if let Ok(mut kept) = self.0.lock() {
             kept.extend(found.iter().map(|(from, row)| (*from, row.clone())));
         }
@@ -50,17 +52,37 @@ impl Known {
     }
 }
 
-/// The routes from these starts to all places; the first ones where a deadline comes before the last.
+/// Each place, for each robot.
+pub fn starts(graph: &SiteGraph, robots: &[String]) -> Vec<From> {
+    let places = graph.places.len();
+    (0..robots.len()).flat_map(|robot| (0..places).map(move |place| (robot, place))).collect()
+}
+
+/// What these routes cost, by the names of robots and places; those that there are.
+pub fn costs(graph: &SiteGraph, robots: &[String], rows: &BTreeMap<From, Row>) -> PlaceCosts {
+    let name = |place: usize| graph.places[place].place.clone();
+    let costs = rows.iter().flat_map(|(&(robot, start), row)| {
+        row.iter().enumerate().filter_map(move |(goal, found)| {
+            Some(((robots[robot].clone(), name(start), name(goal)), found.as_ref()?.cost))
+        })
+    });
+    costs.collect()
+}
+
+/// The routes from these starts to all places; the first ones where it is broken off.
+///
+/// # Arguments
+/// `goes_on` is asked before the routes of a few starts are found side by side.
 pub fn rows(
     (graph, gauge): (&SiteGraph, &Gauge),
     robots: &[String],
     wanted: &[From],
-    deadline: Option<Instant>,
+    goes_on: impl Fn() -> bool,
 ) -> BTreeMap<From, Row> {
     let compact = CompactGraph::new(graph.graph());
     let mut found = BTreeMap::new();
     for batch in wanted.chunks(rayon::current_num_threads().max(1) * 2) {
-        if deadline.is_some_and(|deadline| Instant::now() >= deadline) {
+        if !goes_on() {
             break;
         }
         let rows: Vec<Row> = batch

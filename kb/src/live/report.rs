@@ -16,6 +16,7 @@ use adit_planners::routes::{DoorIndex, RoomIndex};
 use serde::Serialize;
 
 use crate::graph::itinerary::Itinerary;
+use crate::graph::pairs::PlaceCosts;
 use crate::graph::{End, SiteGraph};
 use crate::knowledge::KnowledgeBase;
 use crate::knowledge::told::Attached;
@@ -92,9 +93,6 @@ pub struct RouteChange {
     /// Whether it leads another way; unknown where the rooms were cut anew.
     pub other_way: Option<bool>,
 }
-
-/// Costs of the routes between places, by robot, start and goal.
-pub type PlaceCosts = BTreeMap<(String, String, String), f64>;
 
 impl Routes {
     /// Counts a route among those that cost less or more, or that there is no more or was not before.

@@ -10,9 +10,10 @@ use adit_planners::routes::Start;
 use ends::{ALL_STARTS_UP_TO, ends, keeps_rooms};
 use rayon::prelude::*;
 
-use super::report::{PlaceCosts, Routes};
+use super::report::Routes;
 use crate::error::{Code, Error, Result};
 use crate::graph::gauge::Gauge;
+use crate::graph::pairs::PlaceCosts;
 use crate::graph::{End, SiteGraph};
 use crate::site::Starts;
 use crate::state::before::Before;

@@ -3,15 +3,14 @@
 use std::sync::{Arc, Weak};
 
 use adit_db::place::Place;
-use adit_planners::routes::Goal;
 use adit_planners::world::World;
 
 use super::memory::Memory;
-use super::report::PlaceCosts;
 use crate::answer::{self, Answer};
 use crate::error::{Code, Error, Result};
+use crate::graph::SiteGraph;
 use crate::graph::gauge::Gauge;
-use crate::graph::{End, SiteGraph};
+use crate::graph::pairs::{self, Known, PlaceCosts};
 use crate::knowledge::inputs::Inputs;
 use crate::knowledge::{KnowledgeBase, tolerance};
 use crate::state::Courses;
@@ -29,6 +28,7 @@ pub struct View {
     layout: Arc<str>,
     generation: u64,
     routes_due: bool,
+    known: Arc<Known>,
     within: Option<f64>,
 }
 
@@ -86,6 +86,7 @@ impl View {
             layout: memory.layout(),
             generation: memory.state.generation,
             routes_due: memory.routes_due,
+            known: Arc::clone(&memory.state.known),
             within: None,
         }
     }
@@ -153,36 +154,14 @@ impl View {
     /// What routes between places cost, by robot, start and goal; those that there are. `None` where it is broken off.
     ///
     /// # Arguments
-    /// `goes_on` is asked before the routes of each start are found.
+    /// `goes_on` is asked before the routes of a few starts are found.
     pub fn place_costs(&self, goes_on: impl Fn() -> bool) -> Option<PlaceCosts> {
         if let Some(courses) = &self.courses {
-            let costs = courses.costs().into_iter();
-            let named = |(key, cost): ([&str; 3], Option<f64>)| Some((key.map(str::to_owned).into(), cost?));
-            return Some(costs.filter_map(named).collect());
+            return Some(courses.place_costs());
         }
-        let graph = &self.graph;
-        let place = |index| End::Place(index);
-        let all = 0..graph.places.len();
-        let mut costs = PlaceCosts::new();
-        for robot in self.robots.iter() {
-            let (robot_name, gauge) = (Some(robot.as_str()), Some(&*self.gauge));
-            let goals: Vec<Goal> =
-                all.clone().map(|index| graph.goal(gauge, &place(index), robot_name)).collect();
-            for from in all.clone() {
-                if !goes_on() {
-                    return None;
-                }
-                let start = graph.start(gauge, &place(from), robot_name);
-                let ways = graph.graph().ways(&start, &goals, false).goals;
-                for (to, way) in ways.into_iter().enumerate() {
-                    if let Some(way) = way {
-                        let [start, goal] = [from, to].map(|index| graph.places[index].place.clone());
-                        costs.insert((robot.clone(), start, goal), way.cost);
-                    }
-                }
-            }
-        }
-        Some(costs)
+        let (graph, all) = (&*self.graph, pairs::starts(&self.graph, &self.robots));
+        let rows = self.known.rows((graph, &self.gauge), &self.robots, &all, goes_on);
+        (rows.len() == all.len()).then(|| pairs::costs(graph, &self.robots, &rows))
     }
 
     /// The site's files.

@@ -71,13 +71,11 @@ pub(super) fn compare(
     patience: Duration,
 ) -> PlaceRoutes {
     let began = Instant::now();
-    let places = before.0.places.len();
-    let mut all = PlaceRoutes { compared: 0, ..PlaceRoutes::none(robots.len(), places) };
-    let wanted: Vec<From> =
-        (0..robots.len()).flat_map(|robot| (0..places).map(move |place| (robot, place))).collect();
-    let old = known.rows(before, robots, &wanted, began + patience / 2);
+    let mut all = PlaceRoutes { compared: 0, ..PlaceRoutes::none(robots.len(), before.0.places.len()) };
+    let wanted = pairs::starts(before.0, robots);
+    let old = known.rows(before, robots, &wanted, || began.elapsed() < patience / 2);
     let wanted: Vec<From> = wanted.into_iter().filter(|from| old.contains_key(from)).collect();
-    let new = pairs::rows(after, robots, &wanted, Some(began + patience));
+    let new = pairs::rows(after, robots, &wanted, || began.elapsed() < patience);
     for ((robot, start), row) in &new {
         for (goal, new) in row.iter().enumerate().filter(|(goal, _)| goal != start) {
             let old = old.get(&(*robot, *start)).and_then(|row| *row.get(goal)?);

@@ -1,7 +1,6 @@
 //! After each change: which routes between places cost more or less, said to subscribers; then the kept routes, found
 //! anew on a thread of their own while edits and questions go on.
 
-use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::sync::mpsc::channel;
 use std::thread;
@@ -10,6 +9,7 @@ use std::time::{Duration, Instant};
 use super::event::{Event, Rerouted, RouteCost};
 use super::shared::Shared;
 use crate::error::{Code, Error, Result};
+use crate::graph::pairs::PlaceCosts;
 use crate::live::{Renewal, View};
 
 /// How long no change may come before kept routes are found anew.
@@ -27,8 +27,6 @@ const NAMED: usize = 200;
 
 /// Trees that are found side by side before they are written.
 const BATCH: usize = 4;
-
-type Costs = BTreeMap<(String, String, String), f64>;
 
 /// Works until the service ends.
 pub fn start(shared: Arc<Shared>) -> Result<thread::JoinHandle<()>> {
@@ -62,12 +60,12 @@ pub fn start(shared: Arc<Shared>) -> Result<thread::JoinHandle<()>> {
 
 /// What routes between places cost, by robot, start and goal. `None` once the service ends: on a large floor that takes
 /// seconds, which nobody should wait for who has told it to.
-fn costs(shared: &Shared, view: &View) -> Option<Costs> {
+fn costs(shared: &Shared, view: &View) -> Option<PlaceCosts> {
     let pairs = view.graph().places.len().pow(2) * view.robots().len();
-    if pairs > PAIRS { Some(Costs::new()) } else { view.place_costs(|| !*shared.ending.borrow()) }
+    if pairs > PAIRS { Some(PlaceCosts::new()) } else { view.place_costs(|| !*shared.ending.borrow()) }
 }
 
-fn say(shared: &Shared, generation: u64, before: &Costs, now: &Costs) {
+fn say(shared: &Shared, generation: u64, before: &PlaceCosts, now: &PlaceCosts) {
     let mut changed: Vec<RouteCost> = Vec::new();
     for pair in before.keys().chain(now.keys().filter(|pair| !before.contains_key(*pair))) {
         let (old, new) = (before.get(pair).copied(), now.get(pair).copied());

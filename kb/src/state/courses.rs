@@ -7,6 +7,7 @@ use adit_db::place::Place;
 
 use super::State;
 use crate::error::{Code, Error, Result};
+use crate::graph::pairs::PlaceCosts;
 use crate::plan::course::{Asked, Found, NoEnd, Pathfinder};
 use crate::plan::legs::Legs;
 use crate::site::Starts;
@@ -39,9 +40,6 @@ impl Changed {
         self.other_way && self.old.is_some() && self.new.is_some()
     }
 }
-
-/// Costs of routes, by robot, start and goal; `None`: there is none.
-pub type Costs<'c> = BTreeMap<[&'c str; 3], Option<f64>>;
 
 impl State {
     /// The rules, to be asked about one object at a time, with all that is known now.
@@ -151,14 +149,10 @@ impl Courses {
         self.kept.iter().map(|found| found.row.clone()).collect()
     }
 
-    pub fn costs(&self) -> Costs<'_> {
-        let of = |Found { row, .. }: &'_ Found| row.cost;
-        self.kept
-            .iter()
-            .map(|found| {
-                let Row { robot, start, goal, .. } = &found.row;
-                ([robot.as_str(), start, goal], of(found))
-            })
+    /// What the kept routes cost; those that there are.
+    pub fn place_costs(&self) -> PlaceCosts {
+        let rows = self.kept.iter().map(|found| &found.row);
+        rows.filter_map(|row| Some(((row.robot.clone(), row.start.clone(), row.goal.clone()), row.cost?)))
             .collect()
     }
 

@@ -162,6 +162,9 @@ impl State {
     pub(crate) fn accept(&mut self, step: Step) {
         (self.world, self.told, self.attached, self.planned) =
             (step.world, step.told, step.attached, step.planned);
+        if step.cut.is_some() || step.gauge.is_some() || !step.weighed.is_empty() {
+            self.known = Arc::default();
+        }
         if let Some(graph) = step.cut {
             self.twin = Twin::of(graph);
         } else if !step.weighed.is_empty() {
@@ -171,7 +174,6 @@ impl State {
             self.gauge = gauge;
         }
         self.courses = step.courses;
-        self.known = Arc::default();
         self.pending = None;
     }
 
