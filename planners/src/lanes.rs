@@ -6,6 +6,7 @@
 mod building;
 mod check;
 mod doors;
+mod earth;
 mod geojson;
 mod lif;
 mod nav_graph;
@@ -21,7 +22,7 @@ use serde_json::{Map, Value};
 
 use crate::geometry::Point;
 
-pub use check::refuse_wrong;
+pub use check::{Place, Wrong, refuse_wrong};
 pub use read::{is_lane_graph, read_lane_graph};
 pub use write::{Exported, Format, TooMany, write};
 

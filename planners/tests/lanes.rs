@@ -325,3 +325,168 @@ fn what_lif_cannot_say_is_said() {
         assert!(notes.contains(words), "{words}: {notes}");
     }
 }
+
+#[test]
+fn lifts_of_a_site_may_stand_on_anchors_of_the_whole_site() {
+    let level = |number: u8, name: &str, high: u8| {
+        format!(
+            r#""{number}": {{"properties": {{"name": "{name}", "elevation": {high}}}, "anchors": {{"{number}1": {{"Translate2D": [{number}, 0]}}}}}}"#
+        )
+    };
+    let text = format!(
+        r#"{{"format_version": "0.1", "properties": {{"name": "s"}},
+        "anchors": {{"7": {{"Translate2D": [0, 1]}}, "8": {{"Translate2D": [0, -1]}}}},
+        "levels": {{{}, {}}},
+        "lifts": {{"9": {{"properties": {{"name": "main", "reference_anchors": [7, 8], "initial_level": 2}},
+                          "cabin_anchors": {{"10": {{"Translate2D": [0, 0]}}}}}}}},
+        "navigation": {{"guided": {{"graphs": {{"30": {{"name": "g"}}}},
+                                   "lanes": {{"40": {{"anchors": [11, 10]}}, "41": {{"anchors": [10, 21]}}}}, "locations": {{}}}}}}}}"#,
+        level(1, "ground", 0),
+        level(2, "first", 4)
+    );
+    let graph = read_as("s.site.json", &text).unwrap();
+    assert_eq!((graph.lifts.len(), graph.lanes.len()), (1, 4));
+    assert_eq!(graph.lifts[0].at, Point::new(0.0, 0.0));
+    let cabin = graph.node("10").unwrap();
+    assert_eq!(
+        (cabin.level.as_str(), cabin.lift.as_deref()),
+        ("first", Some("main")),
+        "where the lift waits"
+    );
+    let said = refused("s.site.json", &text.replace("[7, 8]", "[7, 6]"));
+    assert!(said.contains("reference_anchors[1] is 6, and there is no anchor of this number"), "{said}");
+}
+
+#[test]
+fn an_edge_of_nav2_needs_no_line_and_keeps_its_per_cent() {
+    let text = route_graph(r#","metadata":{"speed_limit":85}"#, "MultiLineString", "[[[0,0],[1,0]]]");
+    let text = text.replace(r#","coordinates":[[[0,0],[1,0]]]"#, "");
+    let mut graph = read_as("g.geojson", &text).unwrap();
+    assert_eq!((graph.lanes[0].length, graph.lanes[0].speed_share), (None, Some(0.85)));
+    // as it stands in the file
+    let limit = |graph: &LaneGraph| {
+        let text = write(graph, Format::RouteGraph).unwrap().text;
+        let file: serde_json::Value = serde_json::from_str(&text).unwrap();
+        file["features"][2]["properties"]["metadata"]["speed_limit"].to_string()
+    };
+    assert_eq!(limit(&graph), "85.0");
+    graph.lanes[0].speed_share = Some(0.5);
+    assert_eq!(limit(&graph), "50.0", "somebody changed it, and its unit stays");
+    let part = route_graph(r#","metadata":{"speed_limit":0.85}"#, "MultiLineString", "[[[0,0],[1,0]]]");
+    assert_eq!(limit(&read_as("g.geojson", &part).unwrap()), "0.85");
+}
+
+#[test]
+fn what_a_format_cannot_say_of_heights_and_numbers_is_said() {
+    let mut graph =
+        read_as("g.geojson", &route_graph("", "LineString", "[[0,0],[1,0]]").replace("[1,0]}}", "[1,0,3]}}"))
+            .unwrap();
+    assert!(graph.notes[0].ends_with("since a route graph lies on one level: 1"), "{:?}", graph.notes);
+    graph.levels[0].elevation = 6.0;
+    graph.nodes[1].number = Some(70_000);
+    let notes = write(&graph, Format::RouteGraph).unwrap().notes.join("\n");
+    assert!(notes.contains("how high levels are has no place in a route graph: map (6 m)"), "{notes}");
+    assert!(notes.contains("1 node: another node has the same number, or it is above 65535"), "{notes}");
+    assert!(write(&graph, Format::Lif).unwrap().notes.join("\n").contains("in LIF: map (6 m)"));
+}
+
+#[test]
+fn degrees_lie_where_the_coordinate_system_of_the_file_has_them() {
+    // SVY21 has its natural origin at 1°22' N, 103°50' E, which is 28,001.642 m east and 38,744.572 m north
+    let (north, east) = (1.0 + 22.0 / 60.0, 103.0 + 50.0 / 60.0);
+    let text = format!(
+        "name: t\ncoordinate_system: wgs84\nparameters:\n  generate_crs: [1, EPSG:3414]\n  suggested_offset_x: [3, 22000]\n  suggested_offset_y: [3, 31500]\nlevels:\n  L1:\n    vertices: [[{east}, {north}, 0, a], [{east}, {}, 0, b]]\n    lanes: [[0, 1, {{}}]]\n",
+        north + 0.001
+    );
+    let near = |graph: &LaneGraph, at: usize, x: f64, y: f64, m: f64| {
+        let node = &graph.nodes[at];
+        assert!(node.at.distance(Point::new(x, y)) < m, "{:?} beside {x}, {y}", node.at);
+    };
+    let graph = read_as("t.building.yaml", &text).unwrap();
+    near(&graph, 0, 6001.642, 7244.572, 0.001);
+    // a thousandth of a degree of latitude is 110.5765 m there (WGS 84)
+    near(&graph, 1, 6001.642, 7244.572 + 110.5765, 0.01);
+    let alone = text.replace("  generate_crs: [1, EPSG:3414]\n", "  other: [1, x]\n");
+    let graph = read_as("t.building.yaml", &alone).unwrap();
+    near(&graph, 0, 0.0, 0.0, 1e-6);
+    near(&graph, 1, 0.0, 110.5765, 0.01);
+    assert!(graph.notes[0].contains("`generate_crs`"), "{:?}", graph.notes);
+    for wrong in ["EPSG:1", "EPSG:4326", "Singapore"] {
+        let said = refused("t.building.yaml", &text.replace("EPSG:3414", wrong));
+        assert!(said.contains("a coordinate system in metres on a plane, as EPSG:3414"), "{said}");
+    }
+}
+
+#[test]
+fn a_building_that_nobody_measured_says_that_its_pixels_are_metres() {
+    let text = building("b", "").replace("coordinate_system: cartesian_meters\n", "");
+    let notes = read_as("t.building.yaml", &text).unwrap().notes;
+    assert_eq!(notes, ["nothing was measured on level L1, so that a pixel is taken for a metre"]);
+}
+
+/// A LIF file of two nodes and an edge.
+fn lif(node: &str, edge: &str) -> String {
+    format!(
+        r#"{{"metaInformation": {{"projectIdentification": "p", "creator": "c", "exportTimestamp": "t", "lifVersion": "1.0.0"}},
+"layouts": [{{"layoutId": "l", "layoutVersion": "1",
+"nodes": [{{"nodeId": "a", "nodePosition": {{"x": 0, "y": 0}}, "vehicleTypeNodeProperties": [{{"vehicleTypeId": "v"}}]}},
+{node}],
+"edges": [{edge}],
+"stations": []}}]}}"#
+    )
+}
+
+const NODE_B: &str = r#"{"nodeId": "b", "nodePosition": {"x": 3, "y": 0}, "vehicleTypeNodeProperties": [{"vehicleTypeId": "v"}]}"#;
+
+fn edge_with(properties: &str) -> String {
+    format!(
+        r#"{{"edgeId": "e", "startNodeId": "a", "endNodeId": "b", "vehicleTypeEdgeProperties": [{properties}]}}"#
+    )
+}
+
+#[test]
+fn lif_without_vehicle_types_is_refused_and_a_broken_curve_is_told() {
+    let whole = edge_with(r#"{"vehicleTypeId": "v"}"#);
+    assert!(read_as("a.lif.json", &lif(NODE_B, &whole)).unwrap().notes.is_empty());
+    let said = refused("a.lif.json", &lif(NODE_B, &edge_with("")));
+    assert!(
+        said.contains(
+            "edges[0].vehicleTypeEdgeProperties is [], expected what one vehicle type or more may do there"
+        ),
+        "{said}"
+    );
+    let said = refused(
+        "a.lif.json",
+        &lif(NODE_B, &whole.replace("vehicleTypeEdgeProperties", "mobileRobotTypeEdgeProperties")),
+    );
+    assert!(said.contains("layouts[0].edges[0] has no `vehicleTypeEdgeProperties`"), "{said}");
+    let said =
+        refused("a.lif.json", &lif(&NODE_B.replace("vehicleTypeNodeProperties", "properties"), &whole));
+    assert!(said.contains("layouts[0].nodes[1] has no `vehicleTypeNodeProperties`"), "{said}");
+    let points = r#""controlPoints": [{"x": 0, "y": 0}, {"x": 3, "y": 0}]"#;
+    for (knots, words) in [
+        ("[0, 1, 2]", "3 knots where 2 control points of the degree 1 have 4"),
+        ("[0, 1, 0, 1]", "knots that fall"),
+    ] {
+        let curve = format!(
+            r#"{{"vehicleTypeId": "v", "trajectory": {{"degree": 1, "knotVector": {knots}, {points}}}}}"#
+        );
+        let notes = read_as("a.lif.json", &lif(NODE_B, &edge_with(&curve))).unwrap().notes;
+        assert_eq!(notes, [format!("the curve of edge e has {words}, so that it counts as straight")]);
+    }
+}
+
+#[test]
+fn an_id_that_stands_for_two_or_for_none_is_shown_where_it_stands() {
+    let edge = edge_with(r#"{"vehicleTypeId": "v"}"#);
+    let place = |text: &str| {
+        let problem = read_as("a.lif.json", text).unwrap_err();
+        let label = problem.labels().unwrap().next().unwrap();
+        let span = problem.source_code().unwrap().read_span(label.inner(), 0, 0).unwrap();
+        (span.line() + 1, problem.message.clone())
+    };
+    let twice = place(&lif(&NODE_B.replace("\"b\"", "\"a\""), &edge));
+    assert_eq!(twice, (4, "two nodes are called `a`; expected an id for each".to_owned()));
+    let none = place(&lif(NODE_B, &edge.replace("\"b\"", "\"z\"")));
+    assert_eq!(none, (5, "lane `e` from `a` to `z`: there is no node `z`".to_owned()));
+}

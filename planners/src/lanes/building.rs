@@ -1,35 +1,55 @@
 //! A building of Open-RMF's traffic editor: `building.yaml`.
 
 use std::collections::BTreeMap;
+use std::rc::Rc;
 
 use serde_json::Value;
 
+use super::earth::Earth;
 use super::{Door, Lane, LaneGraph, Level, Lift, Node, Properties, Wall, doors};
 use crate::geometry::Point;
 use crate::read::{At, Code, Read};
 
-/// Metres of a degree of latitude, of a sphere of the earth's mean radius.
-const DEGREE_M: f64 = 111_194.93;
-
-/// From the coordinates of the file to metres: `turned` and scaled (as a complex number), then moved.
-#[derive(Clone, Copy)]
-struct Place {
-    turned: [f64; 2],
-    moved: [f64; 2],
-    is_flipped: bool,
-    /// Metres of a unit of x where it is not that of y.
-    stretch_x: f64,
+/// From the coordinates of a file to metres.
+enum Place {
+    Plane(Plane),
+    /// All levels lie in one frame.
+    Earth(Rc<Earth>),
 }
 
 impl Place {
+    fn at(&self, of: &At<'_>) -> Read<Point> {
+        self.place(of, of.point()?)
+    }
+
+    /// # Arguments
+    /// `of` is what the point belongs to.
+    fn place(&self, of: &At<'_>, point: Point) -> Read<Point> {
+        match self {
+            Self::Plane(plane) => Ok(plane.at(point)),
+            Self::Earth(earth) => earth.metres(point).ok_or_else(|| {
+                of.wrong("degrees east and degrees north, as `coordinate_system: wgs84` says")
+            }),
+        }
+    }
+}
+
+/// `turned` and scaled (as a complex number), then moved.
+#[derive(Clone, Copy)]
+struct Plane {
+    turned: [f64; 2],
+    moved: [f64; 2],
+    is_flipped: bool,
+}
+
+impl Plane {
     const fn scaled(scale: f64, is_flipped: bool) -> Self {
-        Self { turned: [scale, 0.0], moved: [0.0, 0.0], is_flipped, stretch_x: 1.0 }
+        Self { turned: [scale, 0.0], moved: [0.0, 0.0], is_flipped }
     }
 
     fn at(&self, p: Point) -> Point {
-        let (x, y) = (p.x * self.stretch_x, p.y);
         let [a, b] = self.turned;
-        let [u, v] = [a * x - b * y + self.moved[0], b * x + a * y + self.moved[1]];
+        let [u, v] = [a * p.x - b * p.y + self.moved[0], b * p.x + a * p.y + self.moved[1]];
         Point::new(u, if self.is_flipped { -v } else { v })
     }
 
@@ -66,15 +86,15 @@ fn rest(of: &At<'_>, without: &[&str]) -> Properties {
 pub(super) fn read(top: &At<'_>) -> Read<LaneGraph> {
     let mut graph = LaneGraph { name: top.name("name")?.unwrap_or_default(), ..LaneGraph::default() };
     let levels = top.need("levels")?.entries()?;
-    let places = places(top, &levels)?;
+    let places = places(top, &levels, &mut graph.notes)?;
     let is_alone = levels.len() < 2;
     let mut lanes: Vec<(Lane, bool)> = Vec::new();
     for (name, level) in &levels {
         let elevation = level.maybe_number("elevation")?.unwrap_or(0.0);
         graph.levels.push(Level { level: (*name).to_owned(), elevation, properties: Properties::new() });
-        let place = places[*name];
+        let place = &places[*name];
         let vertices = level.list("vertices")?;
-        let at = |number: &At<'_>| Ok(place.at(vertices[number.index(vertices.len(), "vertices")?].point()?));
+        let at = |number: &At<'_>| place.at(&vertices[number.index(vertices.len(), "vertices")?]);
         walls_and_doors(&mut graph, name, level, at)?;
         // nodes are numbered as lanes first lead to them, as in the navigation graphs that Open-RMF makes
         let mut order: Vec<usize> = Vec::new();
@@ -133,9 +153,9 @@ fn is_named(vertex: &At<'_>) -> bool {
     name.is_some_and(|name| !name.is_null() && name != "")
 }
 
-fn node(vertex: &At<'_>, id: String, level: &str, place: Place) -> Read<Node> {
+fn node(vertex: &At<'_>, id: String, level: &str, place: &Place) -> Read<Node> {
     let items = vertex.items()?;
-    let mut node = Node::new(id, level, place.at(vertex.point()?));
+    let mut node = Node::new(id, level, place.at(vertex)?);
     node.name = items.get(3).map(|name| name.text()).transpose()?.filter(|name| !name.is_empty());
     if let Some(given) = items.get(4) {
         node.lift = text(given, "lift_cabin")?;
@@ -239,7 +259,7 @@ fn one_lift(name: &str, lift: &At<'_>, places: &BTreeMap<&str, Place>) -> Read<L
     };
     Ok(Lift {
         lift: name.to_owned(),
-        at: place.at(Point::new(lift.need("x")?.number()?, lift.need("y")?.number()?)),
+        at: place.place(lift, Point::new(lift.need("x")?.number()?, lift.need("y")?.number()?))?,
         yaw_degrees: degrees(lift.maybe_number("yaw")?.unwrap_or(0.0)),
         width: lift.maybe_number("width")?,
         depth: lift.maybe_number("depth")?,
@@ -252,14 +272,21 @@ pub(super) fn degrees(radians: f64) -> f64 {
 }
 
 /// How each level lies: by what was measured on it, the others on the first one by their fiducials.
-fn places<'v>(top: &At<'v>, levels: &[(&'v str, At<'v>)]) -> Read<BTreeMap<&'v str, Place>> {
+fn places<'v>(
+    top: &At<'v>,
+    levels: &[(&'v str, At<'v>)],
+    notes: &mut Vec<String>,
+) -> Read<BTreeMap<&'v str, Place>> {
     let system = top.name("coordinate_system")?.unwrap_or_else(|| "reference_image".to_owned());
     match system.as_str() {
         "reference_image" => {}
         "cartesian_meters" => {
-            return Ok(levels.iter().map(|(name, _)| (*name, Place::scaled(1.0, false))).collect());
+            return Ok(levels
+                .iter()
+                .map(|(name, _)| (*name, Place::Plane(Plane::scaled(1.0, false))))
+                .collect());
         }
-        "wgs84" => return on_the_earth(levels),
+        "wgs84" => return on_the_earth(top, levels, notes),
         _ => {
             let of = top.need("coordinate_system")?;
             return Err(of.wrong("`reference_image`, `cartesian_meters` or `wgs84`"));
@@ -272,7 +299,12 @@ fn places<'v>(top: &At<'v>, levels: &[(&'v str, At<'v>)]) -> Read<BTreeMap<&'v s
             top.problem(Code::Impossible, &format!("has no level `{reference}`, which others lie on"))
         );
     };
-    let base = Place::scaled(measured(first)?.unwrap_or(1.0), true);
+    let scale = measured(first)?;
+    if scale.is_none() {
+        notes
+            .push(format!("nothing was measured on level {reference}, so that a pixel is taken for a metre"));
+    }
+    let base = Plane::scaled(scale.unwrap_or(1.0), true);
     let known = fiducials(first)?;
     let mut places = BTreeMap::new();
     for (name, level) in levels {
@@ -280,15 +312,15 @@ fn places<'v>(top: &At<'v>, levels: &[(&'v str, At<'v>)]) -> Read<BTreeMap<&'v s
             base
         } else {
             match aligned(&fiducials(level)?, &known) {
-                Some(on) => Place {
+                Some(on) => Plane {
                     turned: on.turned.map(|part| part * base.scale()),
                     moved: on.moved.map(|part| part * base.scale()),
                     ..base
                 },
-                None => Place::scaled(measured(level)?.unwrap_or_else(|| base.scale()), true),
+                None => Plane::scaled(measured(level)?.unwrap_or_else(|| base.scale()), true),
             }
         };
-        places.insert(*name, place);
+        places.insert(*name, Place::Plane(place));
     }
     Ok(places)
 }
@@ -330,7 +362,7 @@ fn fiducials(level: &At<'_>) -> Read<BTreeMap<String, Point>> {
 }
 
 /// The turn, scale and move that bring points onto those of the same name with least squares; `None` of fewer than two.
-fn aligned(points: &BTreeMap<String, Point>, onto: &BTreeMap<String, Point>) -> Option<Place> {
+fn aligned(points: &BTreeMap<String, Point>, onto: &BTreeMap<String, Point>) -> Option<Plane> {
     let pairs: Vec<(Point, Point)> =
         points.iter().filter_map(|(name, at)| Some((*at, *onto.get(name)?))).collect();
     if pairs.len() < 2 {
@@ -354,26 +386,37 @@ fn aligned(points: &BTreeMap<String, Point>, onto: &BTreeMap<String, Point>) -> 
     }
     let [a, b] = [re / size, im / size];
     let moved = [to.x - (a * from.x - b * from.y), to.y - (b * from.x + a * from.y)];
-    Some(Place { turned: [a, b], moved, is_flipped: true, stretch_x: 1.0 })
+    Some(Plane { turned: [a, b], moved, is_flipped: true })
 }
 
-/// Degrees east and north as metres about the first vertex; over a few kilometres lengths are right to a thousandth or so.
-fn on_the_earth<'v>(levels: &[(&'v str, At<'v>)]) -> Read<BTreeMap<&'v str, Place>> {
-    let mut origin = None;
-    for (_, level) in levels {
-        for vertex in level.list("vertices")? {
-            let at = vertex.point()?;
-            if at.y.abs() > 89.0 || at.x.abs() > 180.0 {
-                return Err(
-                    vertex.wrong("degrees east and degrees north, as `coordinate_system: wgs84` says")
-                );
+/// Degrees east and north as metres, in the coordinate system that the file names or else about the first vertex.
+fn on_the_earth<'v>(
+    top: &At<'v>,
+    levels: &[(&'v str, At<'v>)],
+    notes: &mut Vec<String>,
+) -> Read<BTreeMap<&'v str, Place>> {
+    let parameters = top.get("parameters");
+    let given = |key: &str| parameters.as_ref().map_or(Ok(None), |of| parameter(of, key));
+    let metres = |key: &str| given(key)?.map_or(Ok(0.0), |value| value.number());
+    let earth = if let Some(system) = given("generate_crs")? {
+        let offset = Point::new(metres("suggested_offset_x")?, metres("suggested_offset_y")?);
+        Earth::named(&system, offset)?
+    } else {
+        let mut origin = Point::new(0.0, 0.0);
+        for (_, level) in levels {
+            if let Some(vertex) = level.list("vertices")?.first() {
+                origin = vertex.point()?;
+                break;
             }
-            origin = origin.or(Some(at));
         }
-    }
-    let origin = origin.unwrap_or(Point::new(0.0, 0.0));
-    let stretch_x = origin.y.to_radians().cos();
-    let moved = [-origin.x * stretch_x * DEGREE_M, -origin.y * DEGREE_M];
-    let place = Place { turned: [DEGREE_M, 0.0], moved, is_flipped: false, stretch_x };
-    Ok(levels.iter().map(|(name, _)| (*name, place)).collect())
+        notes.push("no `generate_crs` is said, so that metres are counted from the first vertex".to_owned());
+        Earth::about(origin).ok_or_else(|| {
+            top.problem(
+                Code::Impossible,
+                &format!("has its first vertex at {}, {} degrees", origin.x, origin.y),
+            )
+        })?
+    };
+    let earth = Rc::new(earth);
+    Ok(levels.iter().map(|(name, _)| (*name, Place::Earth(Rc::clone(&earth)))).collect())
 }

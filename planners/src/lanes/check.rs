@@ -3,11 +3,33 @@
 use std::collections::BTreeSet;
 
 use super::LaneGraph;
-use crate::read::{Code, Problem};
+use crate::read::Code;
+
+/// What is wrong with a lane graph.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Wrong {
+    pub code: Code,
+    /// A sentence that names the node, lane or station.
+    pub message: String,
+    /// What a file may be searched for.
+    pub place: Place,
+}
+
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// The second of two things of a kind, `node`, that are called so.
+    Twice(&'static str, String),
+    /// The first mention of a node that is not there.
+    Missing(String),
+    Anywhere,
+}
 
 /// Refuses ids that stand for several things, or for none, and numbers that mean nothing.
-pub fn refuse_wrong(graph: &LaneGraph) -> Result<(), Problem> {
-    let wrong = |code, message: String| Err(Problem::of_file(code, message));
+pub fn refuse_wrong(graph: &LaneGraph) -> Result<(), Wrong> {
+    let at = |place, code, message: String| Err(Wrong { code, message, place });
+    let wrong = |code, message: String| at(Place::Anywhere, code, message);
+    let missing =
+        |node: &str, message: String| at(Place::Missing(node.to_owned()), Code::Impossible, message);
     let twice = [
         ("level", repeated(graph.levels.iter().map(|level| &level.level))),
         ("node", repeated(graph.nodes.iter().map(|node| &node.node))),
@@ -17,7 +39,8 @@ pub fn refuse_wrong(graph: &LaneGraph) -> Result<(), Problem> {
         ("station", repeated(graph.stations.iter().map(|station| &station.station))),
     ];
     if let Some((what, Some(id))) = twice.into_iter().find(|(_, id)| id.is_some()) {
-        return wrong(Code::DuplicateName, format!("two {what}s are called `{id}`; expected an id for each"));
+        let message = format!("two {what}s are called `{id}`; expected an id for each");
+        return at(Place::Twice(what, id.to_owned()), Code::DuplicateName, message);
     }
     let levels: BTreeSet<&str> = graph.levels.iter().map(|level| level.level.as_str()).collect();
     let nodes: BTreeSet<&str> = graph.nodes.iter().map(|node| node.node.as_str()).collect();
@@ -29,9 +52,8 @@ pub fn refuse_wrong(graph: &LaneGraph) -> Result<(), Problem> {
     }
     for lane in &graph.lanes {
         let of = format!("lane `{}` from `{}` to `{}`", lane.lane, lane.from, lane.to);
-        if let Some(missing) = [&lane.from, &lane.to].into_iter().find(|node| !nodes.contains(node.as_str()))
-        {
-            return wrong(Code::Impossible, format!("{of}: there is no node `{missing}`"));
+        if let Some(node) = [&lane.from, &lane.to].into_iter().find(|node| !nodes.contains(node.as_str())) {
+            return missing(node, format!("{of}: there is no node `{node}`"));
         }
         let share = lane.speed_share.unwrap_or(1.0);
         if !(share > 0.0 && share <= 1.0) {
@@ -56,9 +78,8 @@ pub fn refuse_wrong(graph: &LaneGraph) -> Result<(), Problem> {
     }
     for station in &graph.stations {
         let mut of = station.nodes.split(',').map(str::trim).filter(|node| !node.is_empty());
-        if let Some(missing) = of.find(|node| !nodes.contains(node)) {
-            let message = format!("station `{}`: there is no node `{missing}`", station.station);
-            return wrong(Code::Impossible, message);
+        if let Some(node) = of.find(|node| !nodes.contains(node)) {
+            return missing(node, format!("station `{}`: there is no node `{node}`", station.station));
         }
     }
     Ok(())

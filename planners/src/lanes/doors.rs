@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::{Door, Lane, LaneGraph, Lift, Node};
-use crate::geometry::Point;
+use crate::geometry::{Point, Segment};
 
 /// Names the doors on each lane that has none by name: those that it crosses.
 pub(super) fn cross(graph: &mut LaneGraph) {
@@ -54,8 +54,7 @@ pub(super) fn named(graph: &mut LaneGraph) {
 }
 
 fn do_cross([a, b]: [Point; 2], [c, d]: [Point; 2]) -> bool {
-    let side = |p: Point, q: Point, r: Point| (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x);
-    side(a, b, c) * side(a, b, d) <= 0.0 && side(c, d, a) * side(c, d, b) <= 0.0 && a != b && c != d
+    a != b && c != d && Segment { a, b }.meets(&Segment { a: c, b: d })
 }
 
 /// Adds a ride for each two levels at which nodes lie in the cabin of one lift, both ways; `graphs` are those that vehicles

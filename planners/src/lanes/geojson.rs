@@ -14,18 +14,24 @@ pub(super) const LEVEL: &str = "map";
 pub(super) fn read(top: &At<'_>) -> Read<LaneGraph> {
     let mut graph = LaneGraph { name: top.name("name")?.unwrap_or_default(), ..LaneGraph::default() };
     graph.properties = top.rest(&["name", "features", "type"]);
-    let (mut others, mut nested) = (0, 0);
+    let (mut others, mut nested, mut high) = (0, 0, 0);
     let mut bends: Vec<(usize, f64)> = Vec::new();
     for feature in top.need("features")?.items()? {
         let (properties, geometry) = (feature.need("properties")?, feature.need("geometry")?);
         let kind = geometry.need("type")?.text()?;
-        let coordinates = geometry.need("coordinates")?;
         match kind.as_str() {
-            "Point" => graph.nodes.push(node(&properties, coordinates.point()?)?),
+            "Point" => {
+                let at = geometry.need("coordinates")?;
+                graph.nodes.push(node(&properties, at.point()?)?);
+                high += usize::from(at.value.get(2).and_then(Value::as_f64).is_some_and(|z| z != 0.0));
+            }
             "MultiLineString" | "LineString" => {
-                let is_nested = is_nested(&coordinates);
-                nested += usize::from(is_nested != (kind == "MultiLineString"));
-                bends.push((graph.lanes.len(), length(&coordinates, is_nested)?));
+                // Nav2 looks at the ends of an edge alone, so that there are files without
+                if let Some(coordinates) = geometry.get("coordinates") {
+                    let is_nested = is_nested(&coordinates);
+                    nested += usize::from(is_nested != (kind == "MultiLineString"));
+                    bends.push((graph.lanes.len(), length(&coordinates, is_nested)?));
+                }
                 graph.lanes.push(lane(&properties)?);
             }
             _ => others += 1,
@@ -39,6 +45,11 @@ pub(super) fn read(top: &At<'_>) -> Read<LaneGraph> {
     doors::named(&mut graph);
     bent(&mut graph, &bends);
     tell_apart(&mut graph);
+    if high > 0 {
+        graph.notes.push(format!(
+            "nodes that have a height, which is left out since a route graph lies on one level: {high}"
+        ));
+    }
     if others > 0 {
         graph
             .notes
@@ -175,7 +186,7 @@ fn lane(properties: &At<'_>) -> Read<Lane> {
     lane.lift = metadata.name("lift")?;
     lane.action = metadata.name("action")?;
     lane.closed = metadata.maybe_truth("closed")?.unwrap_or(false);
-    let rest = metadata.rest(&[
+    let mut rest = metadata.rest(&[
         "lane",
         "from",
         "to",
@@ -191,6 +202,12 @@ fn lane(properties: &At<'_>) -> Read<Lane> {
         "action",
         "closed",
     ]);
+    // said in per cent, it is written so again
+    if let Some(limit) =
+        metadata.get("speed_limit").filter(|limit| limit.value.as_f64().is_some_and(|of| of > 1.0))
+    {
+        rest.insert("speed_limit".to_owned(), limit.value.clone());
+    }
     if !rest.is_empty() {
         lane.properties.insert("metadata".to_owned(), Value::Object(rest));
     }

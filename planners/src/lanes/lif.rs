@@ -14,8 +14,12 @@ pub(super) fn read(top: &At<'_>) -> Read<LaneGraph> {
     }
     let name = meta.name("projectIdentification")?.unwrap_or_default();
     let mut graph = LaneGraph { name, properties: top.rest(&["layouts"]), ..LaneGraph::default() };
-    for layout in top.need("layouts")?.items()? {
+    let layouts = top.need("layouts")?;
+    for layout in layouts.items()? {
         one_layout(&mut graph, &layout)?;
+    }
+    if graph.levels.is_empty() {
+        return Err(layouts.wrong("one layout or more"));
     }
     let types: BTreeSet<String> =
         graph.uses.iter().map(|of| of.vehicle_type.clone()).chain(at_nodes(&graph)).collect();
@@ -50,8 +54,8 @@ fn one_layout(graph: &mut LaneGraph, layout: &At<'_>) -> Read<()> {
         let at = Point::new(position.need("x")?.number()?, position.need("y")?.number()?);
         let mut read = Node::new(node.need("nodeId")?.id()?, &level, at);
         read.name = node.name("nodeName")?;
-        for of in node.list("vehicleTypeNodeProperties")? {
-            of.need("vehicleTypeId")?.text()?;
+        for of in node.need("vehicleTypeNodeProperties")?.items()? {
+            of.need("vehicleTypeId")?.id()?;
         }
         read.properties = node.rest(&["nodeId", "nodeName", "nodePosition"]);
         graph.nodes.push(read);
@@ -59,11 +63,20 @@ fn one_layout(graph: &mut LaneGraph, layout: &At<'_>) -> Read<()> {
     for edge in layout.list("edges")? {
         let lane = edge.need("edgeId")?.id()?;
         let mut length: Option<f64> = None;
-        for of in edge.list("vehicleTypeEdgeProperties")? {
-            if let Some(curve) = of.get("trajectory") {
-                length = curve_length(&curve)?
-                    .map(|metres| length.map_or(metres, |most| metres.max(most)))
-                    .or(length);
+        let types = edge.need("vehicleTypeEdgeProperties")?;
+        let of_types = types.items()?;
+        if of_types.is_empty() {
+            return Err(types.wrong("what one vehicle type or more may do there"));
+        }
+        for of in of_types {
+            match of.get("trajectory").map(|curve| read_curve(&curve)).transpose()? {
+                Some(Curve::Of(metres)) => length = Some(length.map_or(metres, |most| metres.max(most))),
+                Some(Curve::Broken(why)) => {
+                    graph
+                        .notes
+                        .push(format!("the curve of edge {lane} has {why}, so that it counts as straight"));
+                }
+                Some(Curve::Straight) | None => {}
             }
             graph.uses.push(one_use(&lane, &of)?);
         }
@@ -85,7 +98,11 @@ fn one_layout(graph: &mut LaneGraph, layout: &At<'_>) -> Read<()> {
     }
     for station in layout.list("stations")? {
         let list = station.need("interactionNodeIds")?;
-        let nodes = list.items()?.iter().map(At::id).collect::<Read<Vec<String>>>()?;
+        let of = list.items()?;
+        if of.is_empty() {
+            return Err(list.wrong("one node or more from which the station is reached"));
+        }
+        let nodes = of.iter().map(At::id).collect::<Read<Vec<String>>>()?;
         graph.stations.push(Station {
             station: station.need("stationId")?.id()?,
             name: station.name("stationName")?,
@@ -133,8 +150,16 @@ fn one_use(lane: &str, of: &At<'_>) -> Read<Use> {
     })
 }
 
-/// Metres along a NURBS; `None` where knots and control points are not those of one, which is then taken for straight.
-fn curve_length(curve: &At<'_>) -> Read<Option<f64>> {
+/// What the NURBS of an edge comes to.
+enum Curve {
+    Straight,
+    /// Metres along it.
+    Of(f64),
+    /// What knots and control points have that those of no NURBS do.
+    Broken(String),
+}
+
+fn read_curve(curve: &At<'_>) -> Read<Curve> {
     let degree = curve.maybe_number("degree")?.unwrap_or(1.0);
     if !(1.0..=9.0).contains(&degree) {
         return Err(curve.problem(Code::Impossible, &format!("has the degree {degree}, expected 1 to 9")));
@@ -143,12 +168,26 @@ fn curve_length(curve: &At<'_>) -> Read<Option<f64>> {
     let knots = curve.list("knotVector")?.iter().map(At::number).collect::<Read<Vec<f64>>>()?;
     let mut points = Vec::new();
     for point in curve.list("controlPoints")? {
-        let weight = point.maybe_number("weight")?.unwrap_or(1.0);
+        let weight = point.get("weight").map_or(Ok(1.0), |weight| weight.positive())?;
         points.push([point.need("x")?.number()? * weight, point.need("y")?.number()? * weight, weight]);
     }
-    let is_whole = points.len() > degree && knots.len() == points.len() + degree + 1;
-    if !is_whole || knots.windows(2).any(|pair| pair[1] < pair[0]) || points.iter().any(|of| of[2] <= 0.0) {
-        return Ok(None);
+    // which some files leave empty, for a straight line
+    if points.is_empty() && knots.is_empty() {
+        return Ok(Curve::Straight);
+    }
+    let expected = points.len() + degree + 1;
+    if points.len() <= degree {
+        return Ok(Curve::Broken(format!("{} control points for the degree {degree}", points.len())));
+    }
+    if knots.len() != expected {
+        return Ok(Curve::Broken(format!(
+            "{} knots where {} control points of the degree {degree} have {expected}",
+            knots.len(),
+            points.len()
+        )));
+    }
+    if knots.windows(2).any(|pair| pair[1] < pair[0]) {
+        return Ok(Curve::Broken("knots that fall".to_owned()));
     }
     let (first, last) = (knots[degree], knots[points.len()]);
     let at = |step: u32| {
@@ -157,7 +196,7 @@ fn curve_length(curve: &At<'_>) -> Read<Option<f64>> {
         Point::new(x / weight, y / weight)
     };
     let length = (0..64).map(|step| at(step).distance(at(step + 1))).sum::<f64>();
-    Ok(length.is_finite().then_some(length))
+    Ok(Curve::Of(length))
 }
 
 fn de_boor(degree: usize, knots: &[f64], points: &[[f64; 3]], at: f64) -> [f64; 3] {

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use super::check::Place;
 use super::{LaneGraph, building, check, geojson, lif, nav_graph, numbers, rmf_site, tmap};
 use crate::read::{At, Code, Problem, Read, Source};
 
@@ -66,9 +67,43 @@ fn of_top(file: &str, top: &At<'_>) -> Read<LaneGraph> {
         Kind::TopologicalMap => tmap::read(top)?,
     };
     numbers::fill(&mut graph);
-    check::refuse_wrong(&graph)
-        .map_err(|wrong| Problem::of_file(wrong.code, format!("{file}: {}", wrong.message)))?;
+    check::refuse_wrong(&graph).map_err(|wrong| match mentions(top, &wrong.place) {
+        Some(at) => at.said(wrong.code, &wrong.message),
+        None => Problem::of_file(wrong.code, format!("{file}: {}", wrong.message)),
+    })?;
     Ok(graph)
+}
+
+/// Where a file of LIF, of Nav2 or of topological navigation says what is wrong.
+fn mentions<'v>(top: &At<'v>, place: &Place) -> Option<At<'v>> {
+    let (keys, id, before): (&[&str], _, _) = match place {
+        Place::Twice("node", id) => (&["nodeId", "id"], id, 1),
+        Place::Twice("lane", id) => (&["edgeId", "edge_id"], id, 1),
+        Place::Twice("level", id) => (&["layoutId"], id, 1),
+        Place::Twice("station", id) => (&["stationId"], id, 1),
+        Place::Missing(id) => {
+            (&["startNodeId", "endNodeId", "interactionNodeIds", "startid", "endid", "node"], id, 0)
+        }
+        Place::Twice(..) | Place::Anywhere => return None,
+    };
+    let mut found = Vec::new();
+    search(top, &|key| keys.contains(&key), id, &mut found);
+    found.into_iter().nth(before)
+}
+
+/// Collects the values of such keys, or in the lists under them, that are an id.
+fn search<'v>(at: &At<'v>, is_key: &dyn Fn(&str) -> bool, id: &str, found: &mut Vec<At<'v>>) {
+    for (key, value) in at.entries().unwrap_or_default() {
+        // edges of Nav2 have an `id`, too
+        let is_edge = key == "id" && at.get("startid").is_some();
+        let mut values = value.items().unwrap_or_else(|_| vec![value.clone()]);
+        values.retain(|value| is_key(key) && !is_edge && value.id().is_ok_and(|own| own == id));
+        found.append(&mut values);
+        search(&value, is_key, id, found);
+    }
+    for item in at.items().unwrap_or_default() {
+        search(&item, is_key, id, found);
+    }
 }
 
 fn kind(top: &At<'_>) -> Read<Kind> {

@@ -25,7 +25,16 @@ pub(super) fn read(top: &At<'_>) -> Read<LaneGraph> {
         }
         graph.levels.push(Level { level: name, elevation, properties: super::Properties::new() });
     }
-    lifts(top, &mut graph, &mut anchors)?;
+    // those of the whole site, on which lifts stand; what lies at one is on the lowest level
+    let lowest = graph.levels.iter().min_by(|one, other| one.elevation.total_cmp(&other.elevation));
+    if let Some(lowest) = lowest {
+        for (id, anchor) in top.object("anchors")? {
+            anchors.insert(id, (position(&anchor)?, lowest.level.clone()));
+        }
+    }
+    let names =
+        levels.iter().map(|(id, _)| *id).zip(graph.levels.iter().map(|level| level.level.clone())).collect();
+    lifts(top, &mut graph, &mut anchors, &names)?;
     for ((_, level), name) in levels.iter().zip(graph.levels.iter().map(|level| level.level.clone())) {
         for (_, wall) in level.object("walls")? {
             graph.walls.push(Wall { level: name.clone(), ends: ends(&wall, &anchors)?.map(|(at, _)| *at) });
@@ -75,7 +84,15 @@ fn anchor<'a>(of: &At<'_>, anchors: &'a Anchors<'_>) -> Read<&'a (Point, String)
 }
 
 /// Lifts stand between two anchors; those of their cabin lie in the frame of its middle.
-fn lifts<'v>(top: &At<'v>, graph: &mut LaneGraph, anchors: &mut Anchors<'v>) -> Read<()> {
+///
+/// # Arguments
+/// `levels` are the names of levels by their numbers.
+fn lifts<'v>(
+    top: &At<'v>,
+    graph: &mut LaneGraph,
+    anchors: &mut Anchors<'v>,
+    levels: &BTreeMap<&str, String>,
+) -> Read<()> {
     for (_, lift) in top.object("lifts")? {
         let properties = lift.need("properties")?;
         let named = properties.need("name")?.text()?;
@@ -83,7 +100,8 @@ fn lifts<'v>(top: &At<'v>, graph: &mut LaneGraph, anchors: &mut Anchors<'v>) -> 
         let items = list.items()?;
         let [left, right] = items.as_slice() else { return Err(list.wrong("two anchors")) };
         let (&(left, ref level), &(right, _)) = (anchor(left, anchors)?, anchor(right, anchors)?);
-        let level = level.clone();
+        let first = properties.get("initial_level").map(|number| number.id()).transpose()?;
+        let level = first.and_then(|number| levels.get(number.as_str())).unwrap_or(level).clone();
         let at = Point::new(f64::midpoint(left.x, right.x), f64::midpoint(left.y, right.y));
         let yaw = (left.y - right.y).atan2(left.x - right.x) - std::f64::consts::FRAC_PI_2;
         for (id, cabin) in lift.object("cabin_anchors")? {

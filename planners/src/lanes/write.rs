@@ -80,6 +80,13 @@ fn note(graph: &LaneGraph, what: &str, has: impl Fn(&Lane) -> bool) -> Option<St
     (count > 0).then(|| format!("{count} {lanes}: {what}"))
 }
 
+/// Which heights of levels a format has no word for.
+fn note_heights(graph: &LaneGraph, format: &str) -> Option<String> {
+    let high = graph.levels.iter().filter(|level| level.elevation != 0.0);
+    let high: Vec<String> = high.map(|level| format!("{} ({} m)", level.level, level.elevation)).collect();
+    (!high.is_empty()).then(|| format!("how high levels are has no place in {format}: {}", high.join(", ")))
+}
+
 /// As [`note`], of nodes.
 fn note_nodes(graph: &LaneGraph, what: &str, has: impl Fn(&Node) -> bool) -> Option<String> {
     let count = graph.nodes.iter().filter(|node| has(node)).count();

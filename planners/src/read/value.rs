@@ -38,6 +38,11 @@ impl<'v> At<'v> {
         self.source.problem(code, &self.steps, &format!("{} {message}", self.path()))
     }
 
+    /// What is wrong, in a sentence that says what it is of without the way to it.
+    pub fn said(&self, code: Code, sentence: &str) -> Problem {
+        self.source.problem(code, &self.steps, sentence)
+    }
+
     /// Where the values of a list stand in its text, in one go.
     pub fn item_spans(&self) -> Vec<Range<usize>> {
         self.source.item_spans(&self.steps, self.value.as_array().map_or(0, Vec::len))

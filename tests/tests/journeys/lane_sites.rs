@@ -5,6 +5,7 @@
 mod bad_files;
 mod exported;
 mod oracle;
+mod stations;
 mod ward;
 
 use std::path::{Path, PathBuf};

@@ -7,7 +7,7 @@ use adit_db::course::Course as Row;
 use adit_db::place::Place;
 use adit_db::route::{Step, Waypoint};
 use adit_planners::geometry::Point;
-use adit_planners::lanes::{Node, Use};
+use adit_planners::lanes::{Node, Station, Use};
 use petgraph::algo::astar;
 use petgraph::graph::{DiGraph, NodeIndex};
 use petgraph::visit::Dfs;
@@ -43,10 +43,24 @@ pub struct Routes {
     said: Mutex<BTreeMap<(usize, usize), Arc<Said>>>,
 }
 
-/// An end: a node, and what is worth a remark of it.
+/// An end: a node, or one of those from which a station is reached; and what is worth a remark of it.
 struct End {
-    node: usize,
+    nodes: Vec<usize>,
     remark: Option<String>,
+}
+
+/// What a text stands for.
+enum Called {
+    Nodes(Vec<usize>),
+    /// All nodes from which it is reached, of which any will do.
+    Station(Vec<usize>),
+}
+
+/// The best way from one of some nodes to one of others.
+struct Way {
+    cost: f64,
+    from: usize,
+    lanes: Vec<usize>,
 }
 
 impl Routes {
@@ -121,14 +135,13 @@ impl Routes {
         at.ok_or_else(|| NoEnd { is_start: true, reason: format!("there is no vehicle type `{robot}`") })
     }
 
-    /// The node of a place, by its id, by its name, or the nearest one to a point.
+    /// The node of a place, by its id, by its name, or the nearest one to a point; those of a station.
     fn end(&self, text: &str, is_start: bool) -> std::result::Result<End, NoEnd> {
-        let exactly = |node| Ok(End { node, remark: None });
         let text = text.trim();
-        let called = self.nodes_called(text);
-        if let [node] = called[..] {
-            return exactly(node);
-        }
+        let called = match self.called(text) {
+            Called::Nodes(nodes) if nodes.len() != 1 => nodes,
+            Called::Nodes(nodes) | Called::Station(nodes) => return Ok(End { nodes, remark: None }),
+        };
         let place = self.places.iter().find(|place| place.place == text);
         let at = place.map(|place| Point::new(place.x, place.y)).or_else(|| point(text));
         let no_end = |reason| NoEnd { is_start, reason };
@@ -159,50 +172,52 @@ impl Routes {
         let way = if is_start { "starts" } else { "ends" };
         let remark =
             (metres > 0.01).then(|| format!("the route {way} at node {id}, {metres:.2} m from {text}"));
-        Ok(End { node, remark })
+        Ok(End { nodes: vec![node], remark })
     }
 
-    /// The nodes that a text may stand for: by id one, by name perhaps several.
-    fn nodes_called(&self, text: &str) -> Vec<usize> {
+    /// What a text stands for: by id one node, by name perhaps several, or a station.
+    fn called(&self, text: &str) -> Called {
         let id = text.strip_prefix("node ").or_else(|| text.strip_prefix("waypoint ")).unwrap_or(text);
         if let Some(node) = self.by_id.get(id) {
-            return vec![*node];
+            return Called::Nodes(vec![*node]);
         }
         let nodes = self.now.graph.nodes.iter().enumerate();
         let named = nodes.filter(|(_, node)| node.name.as_deref() == Some(text));
         let named: Vec<usize> = named.map(|(node, _)| node).collect();
-        if named.is_empty() { self.node_of_station(text).into_iter().collect() } else { named }
+        let is_it = |of: &&Station| of.station == text || of.name.as_deref() == Some(text);
+        let station = self.now.graph.stations.iter().find(is_it).filter(|_| named.is_empty());
+        let of = station.map_or("", |station| &station.nodes).split(',');
+        let nodes: Vec<usize> = of.filter_map(|node| self.by_id.get(node.trim()).copied()).collect();
+        if nodes.is_empty() { Called::Nodes(named) } else { Called::Station(nodes) }
     }
 
-    /// The first node from which a station is reached.
-    fn node_of_station(&self, text: &str) -> Option<usize> {
-        let is_it =
-            |of: &&adit_planners::lanes::Station| of.station == text || of.name.as_deref() == Some(text);
-        let station = self.now.graph.stations.iter().find(is_it)?;
-        self.by_id.get(station.nodes.split(',').next()?.trim()).copied()
-    }
-
-    /// The lanes of the best way, in order.
-    fn lanes(&self, vehicle: usize, from: usize, to: usize) -> Option<(f64, Vec<usize>)> {
+    /// The best way, of one cost the one between the nodes that are named first.
+    fn way(&self, vehicle: usize, from: &[usize], to: &[usize]) -> Option<Way> {
         let graph = &self.nets[vehicle].graph;
-        let goal = NodeIndex::new(to);
-        let (cost, nodes) =
-            astar(graph, NodeIndex::new(from), |node| node == goal, |edge| edge.weight().1, |_| 0.0)?;
-        let lane = |pair: &[NodeIndex]| {
-            let between = graph.edges_connecting(pair[0], pair[1]).map(|edge| *edge.weight());
-            let best = between.min_by(|one, other| one.1.total_cmp(&other.1).then(one.0.cmp(&other.0)));
-            best.map(|(lane, _)| lane)
+        let from_one = |&from: &usize| {
+            let start = NodeIndex::new(from);
+            let is_goal = |node: NodeIndex| to.contains(&node.index());
+            let (cost, nodes) = astar(graph, start, is_goal, |edge| edge.weight().1, |_| 0.0)?;
+            let lane = |pair: &[NodeIndex]| {
+                let between = graph.edges_connecting(pair[0], pair[1]).map(|edge| *edge.weight());
+                let best = between.min_by(|one, other| one.1.total_cmp(&other.1).then(one.0.cmp(&other.0)));
+                best.map(|(lane, _)| lane)
+            };
+            Some(Way { cost, from, lanes: nodes.windows(2).filter_map(lane).collect() })
         };
-        Some((cost, nodes.windows(2).filter_map(lane).collect()))
+        from.iter().filter_map(from_one).min_by(|one, other| one.cost.total_cmp(&other.cost))
     }
 
-    /// Why nothing leads from one node to another: what keeps a vehicle from the lanes that would lead on.
-    fn because(&self, vehicle: usize, from: usize) -> String {
+    /// Why nothing leads from some nodes to others: what keeps a vehicle from the lanes that would lead on.
+    fn because(&self, vehicle: usize, from: &[usize]) -> String {
         let net = &self.nets[vehicle];
-        let mut search = Dfs::new(&net.graph, NodeIndex::new(from));
+        let mut search = Dfs::empty(&net.graph);
         let mut reached = BTreeSet::new();
-        while let Some(node) = search.next(&net.graph) {
-            reached.insert(node.index());
+        for &from in from {
+            search.move_to(NodeIndex::new(from));
+            while let Some(node) = search.next(&net.graph) {
+                reached.insert(node.index());
+            }
         }
         let leads_on = |lane: usize| {
             let [a, b] = self.ends_of(lane);
@@ -213,6 +228,7 @@ impl Routes {
             refusals.filter_map(|(_, weighed)| weighed.as_ref().err()).map(String::as_str).collect();
         refusals.dedup();
         match refusals.as_slice() {
+            [] if reached.len() == 1 => "no lane leads on from there".to_owned(),
             [] => format!("no lane leads on from the {} nodes that can be reached", reached.len()),
             [one, two, three, _, ..] => format!("{one}; {two}; {three}; and {} more", refusals.len() - 3),
             few => few.join("; "),
@@ -228,17 +244,11 @@ impl Routes {
         Arc::clone(said)
     }
 
-    fn found(
-        &self,
-        vehicle: usize,
-        [robot, start, goal]: [&str; 3],
-        ends: [&End; 2],
-        lanes: &[usize],
-    ) -> Found {
+    fn found(&self, vehicle: usize, [robot, start, goal]: [&str; 3], ends: [&End; 2], way: &Way) -> Found {
         let mut row = Row::blank(robot, start, goal);
         row.remarks = ends.into_iter().filter_map(|end| end.remark.clone()).collect();
         let (mut cost, mut distance, mut said) = (0.0, 0.0, Vec::new());
-        let first = &self.now.graph.nodes[ends[0].node];
+        let first = &self.now.graph.nodes[way.from];
         let is_level = self.now.graph.levels.len() < 2;
         let height = |node: &Node| {
             let level = self.now.graph.levels.iter().find(|level| level.level == node.level);
@@ -252,7 +262,7 @@ impl Routes {
             distance: Some(0.0),
             ..Waypoint::default()
         });
-        for (number, &lane) in (1..).zip(lanes) {
+        for (number, &lane) in (1..).zip(&way.lanes) {
             let [from, to] = self.nodes_of(lane);
             let of = self.said(vehicle, lane);
             let hardness = self.nets[vehicle].weighed[lane].clone().unwrap_or_default();
@@ -315,7 +325,7 @@ impl Routes {
         if !lift.is_empty() {
             return lift;
         }
-        let nodes = self.nodes_called(name);
+        let (Called::Nodes(nodes) | Called::Station(nodes)) = self.called(name);
         all(&|lane| nodes.contains(&self.ends_of(lane)[1]))
     }
 }
@@ -333,9 +343,9 @@ impl Pathfinder for Routes {
         let vehicle = self.vehicle(robot)?;
         let (from, to) = (self.end(start, true)?, self.end(goal, false)?);
         let names = [robot, start, goal];
-        Ok(match self.lanes(vehicle, from.node, to.node) {
-            Some((_, lanes)) => self.found(vehicle, names, [&from, &to], &lanes),
-            None => none(names, self.because(vehicle, from.node)),
+        Ok(match self.way(vehicle, &from.nodes, &to.nodes) {
+            Some(way) => self.found(vehicle, names, [&from, &to], &way),
+            None => none(names, self.because(vehicle, &from.nodes)),
         })
     }
 
@@ -347,24 +357,17 @@ impl Pathfinder for Routes {
             return Err(no_through(through, "a lane (`lane 12`), a node, a door or a lift"));
         }
         let names = [robot, ends[0], ends[1]];
-        let mut best: Option<(f64, Vec<usize>)> = None;
-        for &lane in &meant {
-            let Ok(weight) = &self.nets[vehicle].weighed[lane] else { continue };
+        let by_lane = |&lane: &usize| {
+            let weight = self.nets[vehicle].weighed[lane].as_ref().ok()?;
             let [a, b] = self.ends_of(lane);
-            let there = self.lanes(vehicle, from.node, a);
-            let Some(((before, mut lanes), (after, rest))) = there.zip(self.lanes(vehicle, b, to.node))
-            else {
-                continue;
-            };
-            lanes.push(lane);
-            lanes.extend(rest);
-            let cost = before + weight + after;
-            if best.as_ref().is_none_or(|(least, _)| cost < *least) {
-                best = Some((cost, lanes));
-            }
-        }
-        if let Some((_, lanes)) = best {
-            return Ok(self.found(vehicle, names, [&from, &to], &lanes));
+            let (before, after) =
+                (self.way(vehicle, &from.nodes, &[a])?, self.way(vehicle, &[b], &to.nodes)?);
+            let lanes = before.lanes.into_iter().chain([lane]).chain(after.lanes).collect();
+            Some(Way { cost: before.cost + weight + after.cost, from: before.from, lanes })
+        };
+        let best = meant.iter().filter_map(by_lane).min_by(|one, other| one.cost.total_cmp(&other.cost));
+        if let Some(way) = best {
+            return Ok(self.found(vehicle, names, [&from, &to], &way));
         }
         let refused = meant.iter().find_map(|&lane| self.nets[vehicle].weighed[lane].as_ref().err());
         let unreached = || format!("no way leads to {through} and on from it");
@@ -376,7 +379,7 @@ impl Pathfinder for Routes {
         if let Some([robot, start, goal]) = route {
             let vehicle = self.vehicle(robot)?;
             let (from, to) = (self.end(start, true)?, self.end(goal, false)?);
-            lanes = self.lanes(vehicle, from.node, to.node).map(|(_, lanes)| lanes).unwrap_or_default();
+            lanes = self.way(vehicle, &from.nodes, &to.nodes).map(|way| way.lanes).unwrap_or_default();
         }
         // the legend says that nobody drives on the others
         let is_open =

@@ -33,6 +33,13 @@ pub struct Travel<'n> {
     is_lift_closed: bool,
 }
 
+/// Whether a node is for a vehicle type: LIF lists those that it is for.
+pub fn is_node_for(node: &Node, vehicle_type: &str) -> bool {
+    let listed = node.properties.get("vehicleTypeNodeProperties").and_then(|list| list.as_array());
+    listed
+        .is_none_or(|list| list.iter().any(|of| of.get("vehicleTypeId").is_some_and(|id| id == vehicle_type)))
+}
+
 /// Metres along a lane; between levels with the height.
 pub fn length_m(now: &Now, lane: &Lane, [from, to]: [&Node; 2]) -> f64 {
     let elevation = |node: &Node| {
@@ -75,6 +82,12 @@ impl<'n> Travel<'n> {
         self.lane.speed_limit.into_iter().chain(allowed).min_by(f64::total_cmp)
     }
 
+    /// The end that is not for the vehicle.
+    fn unlisted_node(&self) -> Option<&str> {
+        let mut ends = [self.from, self.to].into_iter();
+        ends.find(|node| !is_node_for(node, &self.vehicle.vehicle_type)).map(|node| node.node.as_str())
+    }
+
     fn is_set_allowed(&self) -> bool {
         let sets = self.allowed.and_then(|of| of.load_sets.as_deref());
         let Some((sets, carried)) = sets.zip(self.carried) else { return true };
@@ -83,7 +96,7 @@ impl<'n> Travel<'n> {
 }
 
 /// What rules are told of a vehicle type on a lane.
-pub const fn told<'n>() -> [Property<Travel<'n>>; 36] {
+pub const fn told<'n>() -> [Property<Travel<'n>>; 37] {
     [
         ("lane", Text(|of| Some(&of.lane.lane))),
         ("name", Text(|of| of.lane.name.as_deref())),
@@ -114,6 +127,7 @@ pub const fn told<'n>() -> [Property<Travel<'n>>; 36] {
         ("max_height", Perhaps(|of| of.allowed?.max_height)),
         ("lists_types", Truth(|of| of.lists_types)),
         ("is_listed", Truth(|of| of.allowed.is_some())),
+        ("unlisted_node", Text(Travel::unlisted_node)),
         ("is_for_loaded", Truth(|of| of.allowed.and_then(|of| of.loaded).unwrap_or(true))),
         ("is_for_unloaded", Truth(|of| of.allowed.and_then(|of| of.unloaded).unwrap_or(true))),
         ("load_sets", Text(|of| of.allowed?.load_sets.as_deref())),

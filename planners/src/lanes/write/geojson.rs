@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde_json::{Map, Value, json};
 
-use super::{Exported, TooMany};
+use super::{Exported, TooMany, note_heights};
 use crate::lanes::geojson::LEVEL;
 use crate::lanes::numbers::distinct;
 use crate::lanes::{Lane, LaneGraph, Node, Properties};
@@ -39,10 +39,28 @@ pub(super) fn write(graph: &LaneGraph) -> Result<Exported, TooMany> {
     text.push_str(&lines.join(",\n    "));
     text.push_str("\n  ]\n}\n");
     let walls = graph.walls.len() + graph.doors.len() + graph.lifts.len();
-    let notes = (walls > 0).then(|| {
-        "walls, and where doors and lifts are, have no place in a route graph; lanes name their doors and lifts".to_owned()
-    });
-    Ok(Exported { text, notes: notes.into_iter().collect() })
+    let mut notes = Vec::new();
+    if walls > 0 {
+        notes.push(
+            "walls, and where doors and lifts are, have no place in a route graph; lanes name their doors and lifts".to_owned(),
+        );
+    }
+    notes.extend(note_heights(graph, "a route graph"));
+    let count = |own: Vec<Option<u32>>, given: &[u32]| {
+        own.into_iter().zip(given).filter(|(own, given)| own.is_some_and(|own| own != **given)).count()
+    };
+    let renumbered = [
+        (count(graph.nodes.iter().map(|node| node.number).collect(), &nodes), "node"),
+        (count(graph.lanes.iter().map(|lane| lane.number).collect(), &lanes), "edge"),
+    ];
+    for (count, what) in renumbered.into_iter().filter(|(count, _)| *count > 0) {
+        let many = if count == 1 { "" } else { "s" };
+        notes.push(format!(
+            "{count} {what}{many}: another {what} has the same number, or it is above {most}, so that a free one is written; \
+             what Adit calls them stands in `metadata`"
+        ));
+    }
+    Ok(Exported { text, notes })
 }
 
 /// All but the features, key by key.
@@ -61,6 +79,16 @@ fn metadata(properties: &Properties, told: Vec<(&str, Option<Value>)>) -> (Prope
     };
     metadata.extend(told.into_iter().filter_map(|(key, value)| Some((key.to_owned(), value?))));
     (rest, metadata)
+}
+
+/// A share of the speed in the unit of its file, which may have per cent: the same number again where nobody changed it.
+fn limit_as_said(lane: &Lane, share: f64) -> f64 {
+    let said = lane.properties.get("metadata").and_then(|metadata| metadata.get("speed_limit")?.as_f64());
+    match said {
+        Some(said) if said > 1.0 && (said / 100.0 - share).abs() < 1e-12 => said,
+        Some(said) if said > 1.0 => share * 100.0,
+        _ => share,
+    }
 }
 
 fn flag(is_so: bool) -> Option<Value> {
@@ -98,7 +126,7 @@ fn of_lane(lane: &Lane, number: u32, from: (&Node, &u32), to: (&Node, &u32)) -> 
         ("to", id(to)),
         ("name", text(&lane.name)),
         ("graph", text(&lane.graph)),
-        ("speed_limit", real(lane.speed_share)),
+        ("speed_limit", lane.speed_share.map(|share| json!(limit_as_said(lane, share)))),
         ("abs_speed_limit", real(lane.speed_limit)),
         ("penalty", real(lane.penalty)),
         ("length", real(lane.length)),

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use serde_json::{Map, Value, json};
 
-use super::{Exported, note, note_nodes};
+use super::{Exported, note, note_heights, note_nodes};
 use crate::lanes::{Lane, LaneGraph, Level, Node, Properties, Station, Use};
 
 /// Where a file told no time: what is written depends on the graph alone.
@@ -35,8 +35,6 @@ pub(super) fn write(graph: &LaneGraph) -> Exported {
 
 /// What of a graph LIF has no words for.
 fn notes(graph: &LaneGraph) -> Vec<String> {
-    let by_id = graph.by_id();
-    let level_of = |id: &str| by_id.get(id).map(|node| node.level.as_str());
     let listed: BTreeSet<&str> = graph.uses.iter().map(|of| of.lane.as_str()).collect();
     let is_listed = |lane: &Lane| listed.contains(lane.lane.as_str());
     let notes = [
@@ -64,11 +62,8 @@ fn notes(graph: &LaneGraph) -> Vec<String> {
         note(graph, "the doors and lifts that they lead through have no place in LIF", |lane| {
             lane.door.is_some() || lane.lift.is_some()
         }),
-        note(graph, "an end on another level has no place in LIF, and they are left out", |lane| {
-            level_of(&lane.from) != level_of(&lane.to)
-        }),
     ];
-    notes.into_iter().flatten().collect()
+    notes.into_iter().flatten().chain(note_heights(graph, "LIF")).collect()
 }
 
 /// Adds what a file said besides, but for what is said already.
@@ -92,10 +87,10 @@ fn object<const N: usize>(entries: [(&str, Option<Value>); N]) -> Map<String, Va
 fn layout(graph: &LaneGraph, level: &Level) -> Value {
     let here: Vec<&Node> = graph.nodes.iter().filter(|node| node.level == level.level).collect();
     let ids: BTreeSet<&str> = here.iter().map(|node| node.node.as_str()).collect();
-    let is_here = |id: &str| ids.contains(id);
     let types: Vec<&str> = graph.vehicle_types.iter().map(|of| of.vehicle_type.as_str()).collect();
     let nodes: Vec<Value> = here.iter().map(|node| of_node(node, &types)).collect();
-    let lanes = graph.lanes.iter().filter(|lane| is_here(&lane.from) && is_here(&lane.to));
+    // one that leads to another layout stands in that of its start
+    let lanes = graph.lanes.iter().filter(|lane| ids.contains(lane.from.as_str()));
     let mut uses: BTreeMap<&str, Vec<&Use>> = BTreeMap::new();
     for of in &graph.uses {
         uses.entry(of.lane.as_str()).or_default().push(of);

@@ -29,7 +29,7 @@ fn a_file_that_cannot_be_is_refused_in_a_sentence() {
         (
             "dangling.geojson",
             edge(r#"{"id":2,"startid":1,"endid":7}"#),
-            vec!["dangling.geojson: lane `2` from `1` to `7`: there is no node `7`"],
+            vec!["dangling.geojson:1:", "lane `2` from `1` to `7`: there is no node `7`"],
         ),
         (
             "no-end.geojson",
@@ -39,7 +39,7 @@ fn a_file_that_cannot_be_is_refused_in_a_sentence() {
         (
             "twice.geojson",
             route_graph(&format!("{NODE},{NODE}")),
-            vec!["two nodes are called `1`; expected an id for each"],
+            vec!["twice.geojson:1:", "two nodes are called `1`; expected an id for each"],
         ),
         (
             "huge.geojson",

@@ -88,10 +88,7 @@ fn lif_is_written_for_all_vehicle_types_at_once() {
         let text = export(&site, "site.lif.json", None);
         let other = again(&site, "site.lif.json");
         assert_eq!(text, export(&other, "site.lif.json", None), "{name}: the same from export to export");
-        if !name.contains("hotel") {
-            // rides between levels have no place in LIF
-            assert_eq!(said(&other), said(&site), "{name}");
-        }
+        assert_eq!(said(&other), said(&site), "{name}");
     }
     let Some(map) = file("lif/example.lif.json") else { return };
     let site = site_of(&map);
