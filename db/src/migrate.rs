@@ -87,6 +87,7 @@ pub(crate) const STEPS: &[Step] = &[
         include_str!("../sql/v13/20-geopackage.sql"),
     ]),
     Step::of_all(&[include_str!("../sql/v14/10-measures.sql"), include_str!("../sql/v14/20-routes.sql")]),
+    Step::of_all(&[include_str!("../sql/v15/10-map-routes.sql")]),
 ];
 
 /// The newest schema version.

@@ -102,6 +102,18 @@ fn gdal_and_duckdb_read_all_layers_and_views_while_the_site_is_tuned() {
 }
 
 #[test]
+fn routes_as_a_layer_ask_of_each_route_its_own_waypoints() {
+    let plan = starter().sqlite3("EXPLAIN QUERY PLAN SELECT * FROM map_routes");
+    assert!(
+        plan.iter().any(|line| line.contains("tree_rows") || line.contains("SEARCH g USING PRIMARY KEY")),
+        "{plan:?}"
+    );
+    // an index that is made for the query holds the waypoints of all routes
+    let all = plan.iter().find(|line| line.contains("AUTOMATIC") || line.contains("SCAN course_waypoints"));
+    assert_eq!(all, None, "{plan:?}");
+}
+
+#[test]
 fn what_is_drawn_in_a_geographic_program_is_laid_moved_and_lifted() {
     let site = starter();
     let free = cost(&site).unwrap();

@@ -28,9 +28,7 @@ fn the_best_sequence_of_actions_is_one_query_away() {
 
 #[test]
 fn every_table_and_view_can_be_read() {
-    let site = TestSite::example("clinic").built();
-    // whatever else the machine does: the routes as a layer take the most of a second to gather, three of them or all
-    let service = Service::start_with(&site, &["--listen", "127.0.0.1:0", "--sql-seconds", "20"]);
+    let (_site, service) = served("clinic");
     let (_, schema) = service.ask("GET", "/api/schema", None);
     let tables = schema["tables"].as_array().unwrap();
     assert!(tables.len() > 20);
