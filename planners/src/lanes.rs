@@ -211,6 +211,13 @@ impl Node {
             properties: Properties::new(),
         }
     }
+
+    /// Whether it is for a vehicle type: of LIF those that it lists, else any.
+    pub fn is_for(&self, vehicle_type: &str) -> bool {
+        let listed = self.properties.get("vehicleTypeNodeProperties").and_then(Value::as_array);
+        let is_it = |of: &Value| of.get("vehicleTypeId").is_some_and(|id| id == vehicle_type);
+        listed.is_none_or(|list| list.iter().any(is_it))
+    }
 }
 
 impl LaneGraph {

@@ -7,7 +7,6 @@ use adit_planners::lanes::{Exported, Format, Lane, LaneGraph, write};
 
 use super::judge::Weighed;
 use super::routes::Routes;
-use super::travel::is_node_for;
 use crate::error::{Code, Error, Result};
 
 /// Weights nearer than this are the same.
@@ -40,7 +39,7 @@ fn keep_to(graph: &mut LaneGraph, robot: &str, weighed: &[Weighed], format: Form
     let allowed: BTreeSet<&str> =
         graph.uses.iter().filter(|of| of.vehicle_type == robot).map(|of| of.lane.as_str()).collect();
     let closed_to: BTreeSet<String> =
-        graph.nodes.iter().filter(|node| !is_node_for(node, robot)).map(|node| node.node.clone()).collect();
+        graph.nodes.iter().filter(|node| !node.is_for(robot)).map(|node| node.node.clone()).collect();
     let is_for = |lane: &Lane| {
         (of_graph.is_none() || lane.graph == of_graph)
             && (!listed.contains(lane.lane.as_str()) || allowed.contains(lane.lane.as_str()))

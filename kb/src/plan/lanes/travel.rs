@@ -33,13 +33,6 @@ pub struct Travel<'n> {
     is_lift_closed: bool,
 }
 
-/// Whether a node is for a vehicle type: LIF lists those that it is for.
-pub fn is_node_for(node: &Node, vehicle_type: &str) -> bool {
-    let listed = node.properties.get("vehicleTypeNodeProperties").and_then(|list| list.as_array());
-    listed
-        .is_none_or(|list| list.iter().any(|of| of.get("vehicleTypeId").is_some_and(|id| id == vehicle_type)))
-}
-
 /// Metres along a lane; between levels with the height.
 pub fn length_m(now: &Now, lane: &Lane, [from, to]: [&Node; 2]) -> f64 {
     let elevation = |node: &Node| {
@@ -85,7 +78,7 @@ impl<'n> Travel<'n> {
     /// The end that is not for the vehicle.
     fn unlisted_node(&self) -> Option<&str> {
         let mut ends = [self.from, self.to].into_iter();
-        ends.find(|node| !is_node_for(node, &self.vehicle.vehicle_type)).map(|node| node.node.as_str())
+        ends.find(|node| !node.is_for(&self.vehicle.vehicle_type)).map(|node| node.node.as_str())
     }
 
     fn is_set_allowed(&self) -> bool {
