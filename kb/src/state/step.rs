@@ -160,11 +160,13 @@ impl State {
 
     /// Makes what a step changed what is known.
     pub(crate) fn accept(&mut self, step: Step) {
-        (self.world, self.told, self.attached, self.planned) =
-            (step.world, step.told, step.attached, step.planned);
-        if step.cut.is_some() || step.gauge.is_some() || !step.weighed.is_empty() {
+        // they are numbered by robot and by place, and places come with the graph
+        let is_other = step.told.robots() != self.told.robots();
+        if is_other || step.cut.is_some() || step.gauge.is_some() || !step.weighed.is_empty() {
             self.known = Arc::default();
         }
+        (self.world, self.told, self.attached, self.planned) =
+            (step.world, step.told, step.attached, step.planned);
         if let Some(graph) = step.cut {
             self.twin = Twin::of(graph);
         } else if !step.weighed.is_empty() {
