@@ -246,7 +246,7 @@ fn robots_of(told: &Told, list: &str) -> Result<Cell> {
     }
     if let Some(name) = names.iter().find(|name| !robots.contains(name)) {
         let help = did_you_mean(name, robots.iter().map(String::as_str));
-        let help = help.or_else(|| Some(format!("there are {}", robots.join(", "))));
+        let help = help.or_else(|| Some(format!("the site has {}", robots.join(", "))));
         let message = format!("there is no robot `{name}`");
         return Err(Error::said(Code::TellUnknownObject, message, help));
     }
