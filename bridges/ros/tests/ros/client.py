@@ -13,9 +13,10 @@ from rclpy.qos import DurabilityPolicy, QoSProfile
 
 LOCK = threading.Lock()
 
-# All clients of a service hear all its answers and drop those to others, after these came into a queue of ten: too few where a
-# hundred ask at once.
-SERVICES = QoSProfile(depth=1000)
+# All clients of a service hear all its answers and drop those to others, after these came into a queue of ten: too few where many
+# ask at once. A node that waits for nothing is not spun, so that its queue is full of them: a long one would take longest to read
+# when its answer comes.
+SERVICES = QoSProfile(depth=20)
 
 
 def say(what):
@@ -55,17 +56,34 @@ def fill(message, fields):
 
 
 class Client:
-    """One node or several; orders go round among them."""
+    """One node or several; orders go round among them. Of several only those are spun that wait for an answer."""
 
-    def __init__(self, name, count):
+    def __init__(self, name, count, executor):
         self.nodes = [rclpy.create_node(f"{name}_{index}") for index in range(count)]
         self.node = self.nodes[0]
+        self.executor = executor
         self.made = {}
         self.goals = {}
+        self.waits = {}
+        if count == 1:
+            executor.add_node(self.node)
 
     def do(self, told):
         self.node = self.nodes[told["id"] % len(self.nodes)]
+        self.wait(told["id"])
         getattr(self, told["do"])(told)
+
+    def wait(self, order):
+        if len(self.nodes) > 1:
+            self.waits[order] = self.node
+            self.executor.add_node(self.node)
+
+    def last(self, what):
+        """Says what ends an order."""
+        say(what)
+        node = self.waits.pop(what["id"], None)
+        if node is not None and node not in self.waits.values():
+            self.executor.remove_node(node)
 
     def once(self, key, make):
         key = (self.node, key)
@@ -84,7 +102,7 @@ class Client:
         client = self.once(told["name"], lambda: self.node.create_client(service, told["name"], qos_profile=SERVICES))
         assert client.wait_for_service(20), "no such service"
         ended = client.call_async(fill(service.Request(), told["message"]))
-        ended.add_done_callback(lambda done: say({"id": told["id"], "response": written(done.result())}))
+        ended.add_done_callback(lambda done: self.last({"id": told["id"], "response": written(done.result())}))
 
     def goal(self, told):
         action = kind(told["type"])
@@ -94,7 +112,7 @@ class Client:
         assert client.wait_for_server(20), "no such action"
 
         def ended(done):
-            say({"id": told["id"], "status": done.result().status, "result": written(done.result().result)})
+            self.last({"id": told["id"], "status": done.result().status, "result": written(done.result().result)})
 
         def accepted(done):
             handle = done.result()
@@ -133,10 +151,8 @@ class Client:
 
 def main():
     rclpy.init()
-    client = Client(sys.argv[1], int(sys.argv[2]))
     executor = SingleThreadedExecutor()
-    for node in client.nodes:
-        executor.add_node(node)
+    client = Client(sys.argv[1], int(sys.argv[2]), executor)
 
     def spin():
         try:
