@@ -1,6 +1,5 @@
-//! Many robots, ten orders a second for a while, and doorways that close and open by chance. Each answer of a ROS service goes to all
-//! its clients, so that a hundred nodes of rclpy on two cores are behind with what they hear, and lose it:
-//! `ADIT_STORM_SECONDS=600 ADIT_STORM_ROBOTS=20 cargo test --workspace --test ros storm -- --nocapture`
+//! Many robots, ten orders a second for a while, and doorways that close and open by chance:
+//! `ADIT_STORM_SECONDS=600 ADIT_STORM_ROBOTS=100 cargo test --workspace --test ros storm -- --nocapture`
 
 use std::collections::BTreeMap;
 use std::fs;
