@@ -8,6 +8,7 @@ use adit_planners::lanes::{Exported, Format, Lane, LaneGraph, write};
 use super::judge::Weighed;
 use super::routes::Routes;
 use crate::error::{Code, Error, Result};
+use crate::words::number::counted;
 
 /// Weights nearer than this are the same.
 const SAME: f64 = 1e-9;
@@ -18,10 +19,18 @@ pub fn export(routes: &Routes, format: Format, robot: Option<&str>) -> Result<Ex
     let now = routes.now();
     let mut graph = now.lasting();
     let is_closed = graph != now.graph || !now.closed_doors.is_empty() || !now.closed_lifts.is_empty();
+    let mut left_out = None;
     if let Some(robot) = robot {
-        keep_to(&mut graph, robot, &routes.weighed_open(robot)?, format);
+        let weighed = routes.weighed_open(robot)?;
+        keep_to(&mut graph, robot, &weighed, format);
+        let refused = weighed.iter().filter_map(|weighed| weighed.as_ref().err());
+        left_out = refused.clone().next().map(|first| {
+            let lanes = counted(refused.count(), "lane");
+            format!("without {lanes} on which rules do not let {robot} drive: {first}")
+        });
     }
     let Exported { text, mut notes } = write(&graph, format).map_err(Error::of(Code::ExportTooMany))?;
+    notes.extend(left_out);
     if is_closed {
         notes.push(
             "what somebody closed or opened is not written, since it holds for now: the file is the same without it"
@@ -31,31 +40,16 @@ pub fn export(routes: &Routes, format: Format, robot: Option<&str>) -> Result<Ex
     Ok(Exported { text, notes })
 }
 
-/// Leaves what one vehicle type may drive on, with what rules weigh where Nav2 would weigh otherwise.
+/// Leaves the lanes on which rules let one vehicle type drive, with what rules weigh where Nav2 would weigh otherwise.
 fn keep_to(graph: &mut LaneGraph, robot: &str, weighed: &[Weighed], format: Format) {
     let of_graph =
         graph.vehicle_types.iter().find(|of| of.vehicle_type == robot).and_then(|of| of.graph.clone());
-    let listed: BTreeSet<&str> = graph.uses.iter().map(|of| of.lane.as_str()).collect();
-    let allowed: BTreeSet<&str> =
-        graph.uses.iter().filter(|of| of.vehicle_type == robot).map(|of| of.lane.as_str()).collect();
-    let closed_to: BTreeSet<String> =
-        graph.nodes.iter().filter(|node| !node.is_for(robot)).map(|node| node.node.clone()).collect();
-    let is_for = |lane: &Lane| {
-        (of_graph.is_none() || lane.graph == of_graph)
-            && (!listed.contains(lane.lane.as_str()) || allowed.contains(lane.lane.as_str()))
-            && [&lane.from, &lane.to].into_iter().all(|node| !closed_to.contains(node))
-    };
-    let kept: Vec<bool> = graph.lanes.iter().map(is_for).collect();
     let all = std::mem::take(&mut graph.lanes);
     let at: BTreeMap<&str, Point> = graph.nodes.iter().map(|node| (node.node.as_str(), node.at)).collect();
     let mut lanes = Vec::new();
-    for ((mut lane, is_kept), weight) in all.into_iter().zip(kept).zip(weighed) {
-        if !is_kept {
-            continue;
-        }
-        if let (Format::RouteGraph, Ok(weight)) = (format, weight)
-            && (nav2(&at, &lane) - weight).abs() > SAME
-        {
+    for (mut lane, weight) in all.into_iter().zip(weighed) {
+        let Ok(weight) = weight else { continue };
+        if matches!(format, Format::RouteGraph) && (nav2(&at, &lane) - weight).abs() > SAME {
             (lane.cost, lane.is_cost_fixed) = (Some(*weight), true);
         }
         lanes.push(lane);

@@ -7,7 +7,7 @@ use adit_db::course::Course as Row;
 use adit_db::place::Place;
 use adit_db::route::{Step, Waypoint};
 use adit_planners::geometry::Point;
-use adit_planners::lanes::{Node, Station, Use};
+use adit_planners::lanes::{Lane, Node, Station, Use};
 use petgraph::algo::astar;
 use petgraph::graph::{DiGraph, NodeIndex};
 use petgraph::visit::Dfs;
@@ -122,12 +122,21 @@ impl Routes {
         &self.now
     }
 
-    /// What lanes weigh for a vehicle type where nothing is closed.
+    /// What lanes weigh for a vehicle type where nothing is closed: with what it carries now, where rules let it drive there so, else
+    /// without a load, else with one that is allowed there.
     pub fn weighed_open(&self, vehicle: &str) -> std::result::Result<Vec<Weighed>, NoEnd> {
         let (vehicle, open) = (self.vehicle(vehicle)?, self.now.opened());
         let mut judge = self.judge.lock().unwrap_or_else(PoisonError::into_inner);
-        let lanes = open.graph.lanes.iter().enumerate();
-        Ok(lanes.map(|(at, lane)| judge.weigh(&self.travel_in(&open, vehicle, at), &lane.lane)).collect())
+        let mut weigh = |(at, lane): (usize, &Lane)| {
+            let travel = || self.travel_in(&open, vehicle, at);
+            let load = travel().allowed_load();
+            judge.weigh(&travel(), &lane.lane).or_else(|refusal| {
+                let others = [None, Some(&load)].into_iter();
+                let mut others = others.map(|carried| judge.weigh(&travel().carrying(carried), &lane.lane));
+                others.find(std::result::Result::is_ok).unwrap_or(Err(refusal))
+            })
+        };
+        Ok(open.graph.lanes.iter().enumerate().map(&mut weigh).collect())
     }
 
     fn vehicle(&self, robot: &str) -> std::result::Result<usize, NoEnd> {

@@ -65,6 +65,18 @@ impl<'n> Travel<'n> {
         }
     }
 
+    /// The same with other goods, or none.
+    #[must_use]
+    pub fn carrying(self, carried: Option<&'n Carried>) -> Self {
+        Self { carried, ..self }
+    }
+
+    /// A load of no height that the file allows here.
+    pub fn allowed_load(&self) -> Carried {
+        let sets = self.allowed.and_then(|of| of.load_sets.as_deref()).unwrap_or("load");
+        Carried { load: sets.split(',').next().unwrap_or_default().trim().to_owned(), height: 0.0 }
+    }
+
     fn height(&self) -> Option<f64> {
         Some(self.vehicle.height? + self.carried.map_or(0.0, |of| of.height))
     }

@@ -125,6 +125,26 @@ fn what_rules_weigh_otherwise_is_written_for_nav2_and_counts_there() {
 }
 
 #[test]
+fn where_rules_do_not_let_a_robot_drive_is_not_written_for_it_and_told() {
+    let Some(map) = file("nav2/turtlebot3_graph.geojson") else { return };
+    let site = site_of(&map);
+    let lane = site.sqlite3("SELECT lane FROM lanes ORDER BY number LIMIT 1").remove(0);
+    site.write(
+        "rules/stairs.rhai",
+        format!("rule \"it cannot climb\" priority 50\n    each travel in TRAVELS where travel.lane == \"{lane}\"\n    then {{ travel.passable = false; travel.refusal = \"there are stairs\"; }}\n"),
+    );
+    site.adit("build", &[]).expect_status(0);
+    let to = site.path().join("graph.geojson");
+    let ran = site.adit("export", &["--to", to.to_str().unwrap()]).expecting(0);
+    ran.complains(&["without 1 lane on which rules do not let robot drive: there are stairs"]);
+    let text = std::fs::read_to_string(&to).unwrap();
+    let text: serde_json::Value = serde_json::from_str(&text).unwrap();
+    let ids = text["features"].as_array().unwrap().iter().filter(|of| of["properties"]["startid"].is_u64());
+    let ids: Vec<String> = ids.map(|of| of["properties"]["id"].to_string()).collect();
+    assert!(ids.len() > 10 && !ids.contains(&lane), "{ids:?}");
+}
+
+#[test]
 fn what_is_written_is_the_same_whatever_somebody_closed() {
     let site = site_of(&repository().join("kb/worlds/ward.building.yaml"));
     let before = export(&site, "graph.geojson", None);
