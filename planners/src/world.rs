@@ -5,7 +5,7 @@ mod occupancy;
 
 use std::hash::{Hash, Hasher};
 
-use geo::{Contains, Coord, Polygon};
+use geo::{BooleanOps, Contains, Coord, MultiPolygon, Polygon};
 use siphasher::sip::SipHasher13;
 
 pub use named::{Area, NamedDoor, Property};
@@ -52,6 +52,14 @@ impl World {
             grid: None,
             clearance: 0.0,
         }
+    }
+
+    /// What is called so: a `place`, an `area`, or a `door`.
+    pub fn kind_of_named(&self, name: &str) -> Option<&'static str> {
+        let places = self.places.iter().map(|place| ("place", &place.name));
+        let areas = self.areas.iter().map(|area| ("area", &area.name));
+        let doors = self.named_doors.iter().map(|door| ("door", &door.name));
+        places.chain(areas).chain(doors).find(|(_, known)| *known == name).map(|(kind, _)| kind)
     }
 
     /// Everything solid as rectangles inside of the environment: what the paper's modes look at. Polygons by
@@ -148,6 +156,11 @@ impl Shape {
             Self::Rect(rect) => polygon::sides(&rect.corners()).collect(),
             Self::Polygon(corners) => polygon::sides(corners).collect(),
         }
+    }
+
+    /// What of it lies in a rectangle; empty where they have no more than an edge in common.
+    pub fn part_in(&self, rect: Rect) -> MultiPolygon<f64> {
+        self.to_geo().intersection(&Self::Rect(rect).to_geo())
     }
 
     /// The outline as the `geo` crate has it.

@@ -1,9 +1,11 @@
 //! Zone sets of VDA 5050 3.0, as areas: other programs draw them, and vehicles are told them.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
+
+use geo::Area as _;
 
 use super::diagnostic::{Code, MapErrors, Problem, Text};
 use super::fields::{Fields, Located};
@@ -72,21 +74,29 @@ impl ZoneSet {
         let sets = self.of_the_map(sets(&source.top())?)?;
         let mut found = Vec::new();
         let (mut areas, mut notes) = (Vec::new(), Vec::new());
-        let (mut zones, mut spans) = (Vec::new(), Vec::new());
+        let mut zones = Vec::new();
         for set in &sets {
             let list = set.need("zones")?;
-            zones.extend(list.items()?);
-            spans.extend(list.item_spans());
+            zones.extend(
+                list.items()?.into_iter().zip(list.item_spans()).map(|(zone, span)| (set, zone, span)),
+            );
         }
-        let called = names(&zones)?;
-        for ((zone, name), span) in zones.iter().zip(called).zip(spans) {
-            match area(source.named(), zone, name, span, &mut notes) {
+        let called = names(&zones, world)?;
+        for ((_, zone, span), name) in zones.iter().zip(called) {
+            match area(source.named(), zone, name, span.clone(), &mut notes) {
                 Ok(area) => areas.push(area),
                 Err(problem) => found.push(problem),
             }
         }
         if !found.is_empty() {
             return Err(MapErrors { problems: found });
+        }
+        let on_map = |area: &Located<Area>| area.value.shape.part_in(world.bounds).unsigned_area() > 0.0;
+        // where all lie off it, the file is of another map, or measured from elsewhere
+        if areas.iter().any(on_map) {
+            let (on, off): (Vec<_>, Vec<_>) = areas.into_iter().partition(on_map);
+            areas = on;
+            notes.extend(off_the_map(source.named(), &off));
         }
         notes.extend(Overlay::of_areas(source.named(), areas).lay_over(world)?);
         Ok(notes)
@@ -134,17 +144,40 @@ fn sets<'v>(top: &At<'v>) -> Read<Vec<At<'v>>> {
     all.into_iter().map(|one| Ok(one.get("zoneSet").unwrap_or(one))).collect()
 }
 
-/// What zones are called: by their words, where those are no other zone's words or id; else by their ids.
-fn names(zones: &[At<'_>]) -> Read<Vec<String>> {
+/// What zones are called: by their words, where those are no other zone's words or id; else by their ids, and by their set besides
+/// where something is called so already, since ids are of one set.
+fn names(zones: &[(&At<'_>, At<'_>, Range<usize>)], world: &World) -> Read<Vec<String>> {
     let mut count: BTreeMap<String, usize> = BTreeMap::new();
-    let words = zones.iter().map(|zone| zone.name("zoneDescriptor")).collect::<Read<Vec<_>>>()?;
+    let words = zones.iter().map(|(_, zone, _)| zone.name("zoneDescriptor")).collect::<Read<Vec<_>>>()?;
     for words in words.iter().flatten() {
         *count.entry(words.clone()).or_default() += 1;
     }
-    let ids = zones.iter().map(|zone| zone.need("zoneId")?.id()).collect::<Read<Vec<_>>>()?;
+    let ids = zones.iter().map(|(_, zone, _)| zone.need("zoneId")?.id()).collect::<Read<Vec<_>>>()?;
     let is_own = |words: &String, id: &String| count[words] == 1 && (words == id || !ids.contains(words));
-    let named = ids.iter().zip(words).map(|(id, words)| words.filter(|words| is_own(words, id)));
-    Ok(named.zip(&ids).map(|(words, id)| words.unwrap_or_else(|| id.clone())).collect())
+    let (mut names, mut called) = (Vec::new(), BTreeSet::new());
+    for ((id, words), (set, ..)) in ids.iter().zip(words).zip(zones) {
+        let name = words.filter(|words| is_own(words, id)).unwrap_or_else(|| id.clone());
+        let is_taken = world.kind_of_named(&name).is_some() || called.contains(&name);
+        let name = match set.get("zoneSetId").filter(|_| is_taken) {
+            Some(set) => format!("{name} ({})", set.id()?),
+            None => name,
+        };
+        called.insert(name.clone());
+        names.push(name);
+    }
+    Ok(names)
+}
+
+/// Says which zones lie off the map, and so mean nothing here.
+fn off_the_map(text: &Text, off: &[Located<Area>]) -> Option<Problem> {
+    let first = off.first()?;
+    let said: Vec<String> = off.iter().take(5).map(|area| format!("`{}`", area.value.name)).collect();
+    let more = if off.len() > said.len() { ", ..." } else { "" };
+    let message = match off.len() {
+        1 => format!("the zone {} lies off the map, and is left out", said[0]),
+        count => format!("{count} zones lie off the map, and are left out: {}{more}", said.join(", ")),
+    };
+    Some(text.problem(Code::Outside, &first.span, message).as_advice())
 }
 
 fn area(

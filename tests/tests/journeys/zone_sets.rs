@@ -120,6 +120,22 @@ fn a_file_may_hold_the_zones_of_several_maps() {
 }
 
 #[test]
+fn ids_of_several_sets_may_be_the_same_and_zones_off_the_map_are_told() {
+    let here = |id, x: f64| zone(id, "BLOCKED", [x, 0.0, x + 0.5, 0.5], &json!({}));
+    let other = json!({"mapId": "m", "zoneSetId": "night", "zones": [here("a", 3.0), here("here", 5.0)]});
+    let site = site(&json!([set("m", &[here("a", 1.0), here("far", 40.0)]), other]));
+    site.write("more.json", set("m", &[here("a", 7.0)]).to_string());
+    site.edit("site.toml", "[[zone_set]]\n", "[[zone_set]]\nfile = \"more.json\"\n[[zone_set]]\n");
+    let built = site.adit("build", &[]).expecting(0);
+    built.complains(&["the zone `far` lies off the map, and is left out"]);
+    assert_eq!(
+        site.sqlite3("SELECT area, zone_id, x FROM areas ORDER BY x"),
+        ["a (1)|a|1.25", "a (night)|a|3.25", "here (night)|here|5.25", "a|a|7.25"],
+        "by their sets where something is called so already"
+    );
+}
+
+#[test]
 fn a_zone_set_that_is_wrong_is_refused_at_its_line() {
     let refused = |zones: &Value, said: &[&str]| site(zones).adit("build", &[]).expecting(2).complains(said);
     let one = |zone| set("m", &[zone]);
@@ -144,8 +160,6 @@ fn a_zone_set_that_is_wrong_is_refused_at_its_line() {
         &one(zone("a", "BLOCKED", [40.0, 0.0, 41.0, 1.0], &json!({}))),
         &["outside of the environment", "\"zoneId\": \"a\""],
     );
-    let same = zone("here", "BLOCKED", square, &json!({}));
-    refused(&one(same), &["`here`"]);
     refused(&json!({"zoneSet": {}}), &["zoneSet has no `mapId`"]);
     let across =
         zone("a", "BIDIRECTED", square, &json!({"direction": 0.0, "bidirectedLimitation": "STRICT"}));

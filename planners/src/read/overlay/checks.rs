@@ -37,10 +37,7 @@ pub(super) fn taken(
     name: &str,
     span: &Range<usize>,
 ) -> Option<Problem> {
-    let places = world.places.iter().map(|place| ("place", &place.name));
-    let areas = world.areas.iter().map(|area| ("area", &area.name));
-    let doors = world.named_doors.iter().map(|door| ("door", &door.name));
-    let (of, _) = places.chain(areas).chain(doors).find(|(_, known)| *known == name)?;
+    let of = world.kind_of_named(name)?;
     let article = if of == "area" { "an" } else { "a" };
     let message = format!("the map has {article} {of} `{name}` already");
     Some(text.problem(duplicate(of, what), span, message))

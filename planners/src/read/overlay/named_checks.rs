@@ -1,6 +1,6 @@
 //! Named areas and doors against the world over which they are laid.
 
-use geo::{Area as _, BooleanOps, Centroid};
+use geo::{Area as _, Centroid};
 
 use super::super::diagnostic::{Code, Problem, Text};
 use super::super::fields::Located;
@@ -23,7 +23,7 @@ pub(super) fn add_area(world: &mut World, text: &Text, area: &Located<Area>, fou
             laid.centre = centre(&laid.shape);
         }
         shape @ Shape::Polygon(_) => {
-            let within = shape.to_geo().intersection(&Shape::Rect(world.bounds).to_geo());
+            let within = shape.part_in(world.bounds);
             // a polygon may lie outside though the rectangle about it does not
             let is_in = within.unsigned_area() > 0.0;
             let rect = if is_in { enclosing } else { Rect::around([]) };
