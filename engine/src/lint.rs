@@ -2,6 +2,7 @@
 
 mod contradiction;
 mod table;
+mod texts;
 pub(crate) mod unused;
 
 use crate::diagnostic::Diagnostic;

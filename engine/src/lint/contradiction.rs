@@ -10,7 +10,7 @@ use crate::table::{Test, plain};
 use crate::value::Value;
 
 /// What a condition asks of one property: the path, the test, the place.
-type Asked = (String, Test, Position);
+pub(super) type Asked = (String, Test, Position);
 
 pub(super) fn lint(rule: &Rule) -> Vec<Diagnostic> {
     let mut before: Vec<Asked> = vec![];
@@ -39,7 +39,7 @@ fn contradicts(path: &str, asked: &[Asked], before: &[Asked]) -> bool {
         && !regions(tests.iter().copied()).iter().any(|region| tests.iter().all(|test| region.passes(test)))
 }
 
-fn asked(rule: &Rule, clause: &Clause) -> Vec<Asked> {
+pub(super) fn asked(rule: &Rule, clause: &Clause) -> Vec<Asked> {
     let mut asked = vec![];
     for condition in &clause.conditions {
         let named = |expr: &Expr| match expr {

@@ -111,16 +111,19 @@ impl KnowledgeBase {
         let rules = rules::load(self.site(), self.rules.as_deref())?.base;
         let mut problems =
             lint::ignored(self.site(), self.rules.as_deref(), &rules, self.planners(), &self.asked()?);
-        let said: Vec<String> = problems.iter().map(ToString::to_string).collect();
         let folder = tempfile::tempdir().map_err(|error| Error::io("make", &std::env::temp_dir(), &error))?;
         let scratch = folder.path().join("check.db");
-        problems.extend(lint::replaced(&rules));
+        let mut changed = lint::replaced(&rules);
         if self.database().exists() {
             let mut store = Store::open_read_only(self.database())?;
-            problems.extend(over::changed_beneath(&rules, &store.snapshot(over::kept)?));
+            changed.extend(over::changed_beneath(&rules, &store.snapshot(over::kept)?));
             store.backup(&scratch)?;
         }
         let report = self.build_at(&scratch, &Silent)?;
+        let told = Store::open_read_only(&scratch)?.snapshot(|tx| self.told(tx, &rules))?;
+        problems.extend(lint::misspelt(&rules, &told.classes));
+        let said: Vec<String> = problems.iter().map(ToString::to_string).collect();
+        problems.extend(changed);
         let notes = report.notes.into_iter().filter(|note| !said.contains(note));
         problems.extend(notes.map(Finding::note));
         let help = "tell it again where it now is, or take it back with `adit tell SITE --retract ID`";

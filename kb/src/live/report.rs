@@ -20,6 +20,7 @@ use crate::graph::pairs::PlaceCosts;
 use crate::graph::{End, SiteGraph};
 use crate::knowledge::KnowledgeBase;
 use crate::knowledge::told::Attached;
+use crate::site::lint;
 use crate::state::before::Before;
 use crate::state::{State, Weighed};
 use crate::words::progress::Stage;
@@ -387,6 +388,7 @@ impl Report {
         let idle = state.told.idle_hours(&state.knowledge);
         let mut notes: Vec<String> =
             inputs.notes.iter().cloned().chain(state.told.notes.iter().cloned()).chain(idle).collect();
+        notes.extend(lint::misspelt(&inputs.rules, &state.told.classes).iter().map(ToString::to_string));
         if graph.rooms.is_empty() && state.site.site().has_rooms() {
             notes.push("there is no room: no state of a robot fits anywhere on this map".to_owned());
         } else if weighed.is_none() {

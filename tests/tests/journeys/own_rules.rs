@@ -190,6 +190,28 @@ fn files_that_look_like_rules_and_are_not_read_are_named() {
 }
 
 #[test]
+fn a_text_that_is_nearly_one_of_the_tables_is_told_and_others_are_not() {
+    let rule = |state: &str| {
+        format!(
+            "revise \"low\"\n    each room in ROOMS where room.state == \"{state}\"\n    set room.hardness by * 2.0 level 10\n"
+        )
+    };
+    let site = TestSite::example("clinic").with("rules/low.rhai", &rule("SQAT"));
+    for (verb, status) in [("check", 1), ("build", 0)] {
+        let ran = site.adit(verb, &[]).expecting(status);
+        let all = said(&ran);
+        let slip = "line 1) asks for state \"SQAT\", which there is not";
+        assert_eq!(all.matches(slip).count(), 1, "{verb}: {all}");
+        assert!(all.contains("did you mean `SQUAT`?"), "{verb}: {all}");
+    }
+    for state in ["SQUAT", "SWIM"] {
+        site.write("rules/low.rhai", rule(state));
+        let all = said(&site.adit("check", &[]).expecting(0));
+        assert!(!all.contains("which there is not"), "{all}");
+    }
+}
+
+#[test]
 fn what_a_rule_that_reacts_tells_is_a_table() {
     let site = with_rules();
     site.write(

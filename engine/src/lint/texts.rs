@@ -1,0 +1,37 @@
+//! The texts with which rules compare properties.
+
+use super::contradiction::asked;
+use crate::rule::{Action, PropertyName, Rule};
+use crate::script::names::property_of;
+use crate::table::Test;
+use crate::value::Value;
+
+impl Rule {
+    /// Properties that its conditions, or the cells of its table, compare with a text as it stands there, and that text.
+    pub fn compared_texts(&self) -> Vec<(PropertyName, String)> {
+        let mut found = vec![];
+        let mut add = |variable: &str, property: &str, test: &Test| {
+            let Some(clause) = self.clauses.iter().find(|clause| clause.variable == variable) else { return };
+            for literal in test.literals() {
+                if let Value::Text(text) = literal {
+                    found.push((PropertyName::new(&clause.class, property), text.to_string()));
+                }
+            }
+        };
+        for (path, test, _) in self.clauses.iter().flat_map(|clause| asked(self, clause)) {
+            if let Some((variable, property)) = path.split_once('.') {
+                add(variable, property, &test);
+            }
+        }
+        if let Action::Table(table) = &self.action {
+            for row in &table.rows {
+                for ((input, _), (test, _)) in table.given.iter().zip(&row.tests) {
+                    if let Some((variable, property, _)) = property_of(input) {
+                        add(variable, property, test);
+                    }
+                }
+            }
+        }
+        found
+    }
+}
