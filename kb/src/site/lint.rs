@@ -93,12 +93,12 @@ pub fn misspelt(rules: &RuleBase, facts: &Facts) -> Vec<Finding> {
             else {
                 continue;
             };
-            let Some(help) = did_you_mean(text, known.iter().copied()) else { continue };
+            let Some(meant) = did_you_mean(text, known.iter().copied()) else { continue };
             let (name, file, line) = (rule.name(), rule.file(), rule.line());
             let message = format!(
-                "rule \"{name}\" ({file}, line {line}) asks for {property} \"{text}\", which there is not"
+                "rule \"{name}\" ({file}, line {line}) asks for {property} \"{text}\", which there is not: {meant}"
             );
-            found.push(Finding::warning(Code::RuleUnknownText, message, Some(help)));
+            found.push(Finding::warning(Code::RuleUnknownText, message, None));
         }
     }
     found
