@@ -13,6 +13,7 @@ mod evaluate;
 pub(crate) mod facts;
 mod memory;
 mod merge;
+pub(crate) mod misspelt;
 mod network;
 mod pending;
 mod react;

@@ -50,6 +50,7 @@ pub use knowledge::consultation::explain::{Considered, Miss};
 pub use knowledge::consultation::{Consultation, Datum};
 pub use knowledge::dominated::Dominated;
 pub use knowledge::facts::FactError;
+pub use knowledge::misspelt::Misspelt;
 pub use reactions::{Activation, CarriedOut, Firing, Reactions, Told};
 pub use rejection::{Rejected, Rejection, WhyNot};
 pub use rule::{Operator, PropertyName, Rule};

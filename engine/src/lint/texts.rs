@@ -1,5 +1,7 @@
 //! The texts with which rules compare properties.
 
+use std::collections::BTreeSet;
+
 use super::contradiction::asked;
 use crate::rule::{Action, PropertyName, Rule};
 use crate::script::names::property_of;
@@ -8,13 +10,13 @@ use crate::value::Value;
 
 impl Rule {
     /// Properties that its conditions, or the cells of its table, compare with a text as it stands there, and that text.
-    pub fn compared_texts(&self) -> Vec<(PropertyName, String)> {
-        let mut found = vec![];
+    pub(crate) fn compared_texts(&self) -> BTreeSet<(PropertyName, String)> {
+        let mut found = BTreeSet::new();
         let mut add = |variable: &str, property: &str, test: &Test| {
             let Some(clause) = self.clauses.iter().find(|clause| clause.variable == variable) else { return };
             for literal in test.literals() {
                 if let Value::Text(text) = literal {
-                    found.push((PropertyName::new(&clause.class, property), text.to_string()));
+                    found.insert((PropertyName::new(&clause.class, property), text.to_string()));
                 }
             }
         };
@@ -24,11 +26,10 @@ impl Rule {
             }
         }
         if let Action::Table(table) = &self.action {
-            for row in &table.rows {
-                for ((input, _), (test, _)) in table.given.iter().zip(&row.tests) {
-                    if let Some((variable, property, _)) = property_of(input) {
-                        add(variable, property, test);
-                    }
+            let cells = table.rows.iter().flat_map(|row| table.given.iter().zip(&row.tests));
+            for ((input, _), (test, _)) in cells {
+                if let Some((variable, property, _)) = property_of(input) {
+                    add(variable, property, test);
                 }
             }
         }

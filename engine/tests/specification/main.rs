@@ -17,6 +17,7 @@ mod interpreter;
 mod joins;
 mod limits;
 mod manners;
+mod misspelt;
 mod order;
 mod order_of_edits;
 mod over;

@@ -236,7 +236,7 @@ codes! {
     RuleNotRead = "rule/not-read", UNPROCESSABLE_ENTITY;
     /// A rule beneath was changed since the one that replaces it was written.
     RuleChangedBeneath = "rule/changed-beneath", UNPROCESSABLE_ENTITY;
-    /// A rule asks for a text that no row of a table has, though one has nearly the same.
+    /// A rule asks for a text that no object has, though one has nearly the same.
     RuleUnknownText = "rule/unknown-text", UNPROCESSABLE_ENTITY;
     /// A property that a rule sets and nothing reads; often a slip of the pen.
     RuleUnreadProperty = "rule/unread-property", UNPROCESSABLE_ENTITY;

@@ -120,8 +120,7 @@ impl KnowledgeBase {
             store.backup(&scratch)?;
         }
         let report = self.build_at(&scratch, &Silent)?;
-        let told = Store::open_read_only(&scratch)?.snapshot(|tx| self.told(tx, &rules))?;
-        problems.extend(lint::misspelt(&rules, &told.classes));
+        problems.extend(lint::misspelt(&report.misspelt));
         let said: Vec<String> = problems.iter().map(ToString::to_string).collect();
         problems.extend(changed);
         let notes = report.notes.into_iter().filter(|note| !said.contains(note));

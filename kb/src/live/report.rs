@@ -10,7 +10,7 @@ use adit_db::room::Room;
 use adit_db::schema::Row;
 use adit_db::tree::{Start, TreeRow};
 use adit_db::weight::Weight;
-use adit_engine::{Conclusions, Conflict, Dominated, KnowledgeBase as Inference};
+use adit_engine::{Conclusions, Conflict, Dominated, KnowledgeBase as Inference, Misspelt};
 use adit_planners::read::MapReport;
 use adit_planners::routes::{DoorIndex, RoomIndex};
 use serde::Serialize;
@@ -20,7 +20,6 @@ use crate::graph::pairs::PlaceCosts;
 use crate::graph::{End, SiteGraph};
 use crate::knowledge::KnowledgeBase;
 use crate::knowledge::told::Attached;
-use crate::site::lint;
 use crate::state::before::Before;
 use crate::state::{State, Weighed};
 use crate::words::progress::Stage;
@@ -288,6 +287,8 @@ pub struct Report {
     pub gaps: Vec<String>,
     /// Rows of tables that no rule can ever choose.
     pub dominated: Vec<Dominated>,
+    /// Texts that rules ask for and no object has, though one has nearly the same; in the notes, too.
+    pub misspelt: Vec<Misspelt>,
 }
 
 /// How many rooms and doors take otherwise much of a measure than before.
@@ -360,6 +361,7 @@ impl Report {
         let inputs = Arc::clone(&state.inputs);
         let conclusions = state.knowledge.conclude(&inputs.rules);
         let dominated = state.knowledge.dominated(&inputs.rules);
+        let misspelt = state.knowledge.misspelt(&inputs.rules);
         let graph = state.graph();
         let (mut rooms, mut doors) = (Counts::all(graph.rooms.len()), Counts::all(graph.doors.len()));
         let mut changes = Vec::new();
@@ -388,7 +390,7 @@ impl Report {
         let idle = state.told.idle_hours(&state.knowledge);
         let mut notes: Vec<String> =
             inputs.notes.iter().cloned().chain(state.told.notes.iter().cloned()).chain(idle).collect();
-        notes.extend(lint::misspelt(&inputs.rules, &state.told.classes).iter().map(ToString::to_string));
+        notes.extend(misspelt.iter().map(ToString::to_string));
         if graph.rooms.is_empty() && state.site.site().has_rooms() {
             notes.push("there is no room: no state of a robot fits anywhere on this map".to_owned());
         } else if weighed.is_none() {
@@ -416,6 +418,7 @@ impl Report {
             lost,
             gaps: gaps(&conclusions, graph, &state.site),
             dominated,
+            misspelt,
         }
     }
 

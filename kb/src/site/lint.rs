@@ -5,8 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use adit_engine::{Dominated, Instead, PropertyName, Replaced, Rule, RuleBase, Standing};
-use adit_planners::facts::{Column, Facts};
+use adit_engine::{Dominated, Instead, Misspelt, Replaced, Rule, RuleBase, Standing};
 use adit_planners::planner::Planner;
 use adit_planners::world::World;
 use miette::NamedSource;
@@ -71,34 +70,6 @@ pub fn unread_but(rules: &RuleBase, asked: impl IntoIterator<Item = String>) -> 
             );
             let help = did_you_mean(&property, read.iter().map(String::as_str));
             found.push(Finding::warning(Code::RuleUnreadProperty, message, help));
-        }
-    }
-    found
-}
-
-/// Texts that rules ask for and no row of a table has, though one has nearly the same: of properties as they are called in any
-/// table, since a room is of a state as a robot is.
-pub fn misspelt(rules: &RuleBase, facts: &Facts) -> Vec<Finding> {
-    let mut known: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
-    for (property, column) in facts.values().flat_map(|table| &table.columns) {
-        if let Column::Text(texts) = column {
-            known.entry(property).or_default().extend(texts.iter().flatten().map(String::as_str));
-        }
-    }
-    let mut found = Vec::new();
-    for rule in rules.rules() {
-        let compared: BTreeSet<(PropertyName, String)> = rule.compared_texts().into_iter().collect();
-        for (PropertyName { property, .. }, text) in &compared {
-            let Some(known) = known.get(property.as_str()).filter(|known| !known.contains(text.as_str()))
-            else {
-                continue;
-            };
-            let Some(meant) = did_you_mean(text, known.iter().copied()) else { continue };
-            let (name, file, line) = (rule.name(), rule.file(), rule.line());
-            let message = format!(
-                "rule \"{name}\" ({file}, line {line}) asks for {property} \"{text}\", which there is not: {meant}"
-            );
-            found.push(Finding::warning(Code::RuleUnknownText, message, None));
         }
     }
     found
@@ -284,4 +255,9 @@ pub fn never_chosen(dominated: &[Dominated]) -> Vec<Finding> {
         Finding::warning(Code::RuleNeverChosen, message, Some(help))
     };
     found.into_iter().map(warning).collect()
+}
+
+/// Texts that rules ask for and that were probably meant to be others.
+pub fn misspelt(misspelt: &[Misspelt]) -> impl Iterator<Item = Finding> {
+    misspelt.iter().map(|one| Finding::warning(Code::RuleUnknownText, one.to_string(), None))
 }

@@ -200,7 +200,7 @@ fn a_text_that_is_nearly_one_of_the_tables_is_told_and_others_are_not() {
     for (verb, status) in [("check", 1), ("build", 0)] {
         let ran = site.adit(verb, &[]).expecting(status);
         let all = said(&ran);
-        let slip = "line 1) asks for state \"SQAT\", which there is not: did you mean `SQUAT`?";
+        let slip = "line 1) asks for state \"SQAT\", which there is not: did you mean \"SQUAT\"?";
         assert_eq!(all.matches(slip).count(), 1, "{verb}: {all}");
     }
     for state in ["SQUAT", "SWIM"] {
