@@ -1,5 +1,5 @@
 //! A hundred vehicles, ten errands a second, closings at random. By hand:
-//! `ADIT_STORM=600 cargo test --workspace --test fleet storm -- --ignored --nocapture`
+//! `ADIT_STORM_SECONDS=600 cargo test --workspace --test fleet storm -- --ignored --nocapture`
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -49,7 +49,7 @@ fn doorway(leg: &[[f64; 2]]) -> Option<&'static str> {
 #[ignore = "minutes; by hand"]
 #[allow(clippy::print_stdout)] // its figures
 fn a_storm_leaves_memory_level_and_no_order_contradicts_what_is_known() {
-    let asked = std::env::var("ADIT_STORM").ok().and_then(|seconds| seconds.parse().ok());
+    let asked = std::env::var("ADIT_STORM_SECONDS").ok().and_then(|seconds| seconds.parse().ok());
     let lasts = Duration::from_secs(asked.unwrap_or(60));
     let count = 100;
     let rows: Vec<String> = (0..count).map(|n| format!("v{n},acme,{},", ["dog", "crawler"][n % 2])).collect();
