@@ -142,8 +142,9 @@ impl RouteGraph {
         }
         let wanted = if rooms { Wanted::Rooms } else { Wanted::Goals };
         let outcome = Search::find(self, start, goals, wanted, f64::INFINITY);
-        let way = |found: &Option<taut::Found>| {
-            found.as_ref().map(|found| trace(self, &outcome.nodes, (start, None), found, None))
+        let way = |found: &Vec<taut::Found>| {
+            let ways = found.iter().map(|found| trace(self, &outcome.nodes, (start, None), found, None));
+            ways.min_by(|one, other| one.cost.total_cmp(&other.cost))
         };
         let to = |goal: usize| {
             let best = self.best(&outcome, start, (goal, goals[goal].at));

@@ -85,6 +85,12 @@ impl RouteGraph {
         })
     }
 
+    /// The sides of the area in which a change of shape is possible, without what lies on walls of the room changed into.
+    pub(super) fn sides(&self, door: DoorIndex, into: RoomIndex) -> impl Iterator<Item = Segment> {
+        let sides = self[door].crossing.area().into_iter().flat_map(Convex::sides);
+        sides.flat_map(move |side| self.clear_of_walls(into, side))
+    }
+
     /// Whether a change may pay as one of several at one point: not where one change does the same at no higher price.
     pub(super) fn is_step_on_a_way(&self, door: DoorIndex, from: RoomIndex) -> bool {
         let (to, _) = self.beyond(door, from);

@@ -40,9 +40,11 @@ impl Link {
         let of = &graph[door];
         let before = if of.room1 == room { of.room2 } else { of.room1 };
         let Some(segment) = of.crossing.segment() else {
-            let mut gates = graph.gates(door, before).iter().map(|gate| gate.segment);
-            let gate = gates.find(|gate| gate.nearest_to(at).distance(at) <= SNAP_M);
-            let segment = gate.unwrap_or(Segment { a: at, b: at });
+            let is_at = |segment: &Segment| segment.nearest_to(at).distance(at) <= SNAP_M;
+            let segment = graph.gates(door, before).iter().map(|gate| gate.segment).find(is_at);
+            // what is no gate is changed on, too, by those who start or end there
+            let segment = segment.or_else(|| graph.sides(door, room).find(is_at));
+            let segment = segment.unwrap_or(Segment { a: at, b: at });
             return Self { door, segment, at, room, is_straight: false };
         };
         let is_straight = graph.per_m(room).to_bits() == graph.per_m(before).to_bits();

@@ -37,6 +37,12 @@ const SLACK: f64 = 0.03;
 /// So many ways to a goal are pulled tight.
 const MOST_WAYS: usize = 16;
 
+/// So many of those that change their shape for the last time, or are refracted, at the same door.
+const MOST_ALIKE: usize = 12;
+
+/// So many ways into a room, where ways to all are asked for.
+const MOST_INTO_ROOM: usize = 4;
+
 /// No node, before the first.
 pub(super) const NO_NODE: u32 = u32::MAX;
 
@@ -52,6 +58,8 @@ pub(super) struct Node {
     pub room: RoomIndex,
     /// The door by which it was entered; [`DoorIndex::end`] at the start.
     pub door: DoorIndex,
+    /// The last door at which the way changed its shape or was refracted; [`DoorIndex::end`] before the first.
+    pub stop: DoorIndex,
     /// Whether the way bent at the root without passing a door.
     pub bent: bool,
     /// What of the room is seen.
@@ -72,8 +80,9 @@ pub(super) struct Outcome {
     pub nodes: Vec<Node>,
     /// For each goal some ways that cost least before they are pulled tight; the cheapest first.
     pub goals: Vec<Vec<Found>>,
-    /// For each room the least-cost way to its nearest point, where that was asked for.
-    pub rooms: Vec<Option<Found>>,
+    /// For each room some ways that cost least to its nearest point, of those that stopped last at the same door the best one,
+    /// where that was asked for.
+    pub rooms: Vec<Vec<Found>>,
     /// Nodes that were not gone on from, since others come to their rooms at a little less cost before ways are pulled tight.
     pub passed_over: Vec<u32>,
     /// Whether ways that cost more were not looked for.
@@ -171,7 +180,7 @@ impl<'g> Search<'g> {
         let outcome = Outcome {
             nodes: Vec::new(),
             goals: vec![Vec::new(); goals.len()],
-            rooms: vec![None; kept],
+            rooms: vec![Vec::new(); kept],
             passed_over: Vec::new(),
             is_cut: false,
         };
@@ -208,6 +217,7 @@ impl<'g> Search<'g> {
                 before: NO_NODE,
                 room,
                 door: DoorIndex::end(),
+                stop: DoorIndex::end(),
                 bent: false,
                 view: View::All,
             });
@@ -225,14 +235,16 @@ impl<'g> Search<'g> {
             match candidate.what {
                 What::Goal(found) => {
                     let (goal, found) = self.found[found as usize];
-                    let known = &mut self.outcome.goals[goal];
+                    let known = &self.outcome.goals[goal];
                     missing -= usize::from(known.is_empty());
-                    if known.len() < MOST_WAYS {
-                        known.push(found);
+                    let stop = self.stop_of(&found);
+                    let alike = known.iter().filter(|known| self.stop_of(known) == stop).count();
+                    if known.len() < MOST_WAYS && alike < MOST_ALIKE {
+                        self.outcome.goals[goal].push(found);
                     }
                     let is_done = self.wanted == Wanted::One || missing == 0 && self.wanted == Wanted::Goals;
                     if is_done && !is_last {
-                        (limit, is_last) = (limit.min(slack(found.cost)), true);
+                        (limit, is_last) = (limit.min(slack(found.cost) + self.slid(&found)), true);
                     }
                 }
                 What::Node(index) => self.expand(index),
@@ -387,17 +399,49 @@ impl<'g> Search<'g> {
         self.arrive_in(room, Found { node: index, at, cost, change: None });
     }
 
-    /// Keeps a way into a room, where ways to all rooms are asked for and none that is known costs as little.
+    /// Keeps a way into a room, where ways to all rooms are asked for and it may be the best once it is pulled tight.
     fn arrive_in(&mut self, room: RoomIndex, found: Found) {
-        if self.is_news(room, found.cost) {
-            self.outcome.rooms[room.index()] = Some(found);
+        let stop = self.stop_of(&found);
+        if !self.is_news(room, stop, found.cost) {
+            return;
+        }
+        let known = &self.outcome.rooms[room.index()];
+        let same = known.iter().position(|known| self.stop_of(known) == stop);
+        let costs_most = |one: &usize, other: &usize| known[*one].cost.total_cmp(&known[*other].cost);
+        let is_full = known.len() == MOST_INTO_ROOM;
+        let instead = same.or_else(|| (0..known.len()).max_by(costs_most).filter(|_| is_full));
+        let known = &mut self.outcome.rooms[room.index()];
+        match instead {
+            Some(instead) => known[instead] = found,
+            None => known.push(found),
         }
     }
 
-    /// Whether ways to all rooms are asked for, and none into this one is known that costs as little.
-    fn is_news(&self, room: RoomIndex, cost: f64) -> bool {
-        let known = self.outcome.rooms.get(room.index());
-        known.is_some_and(|known| known.is_none_or(|known| cost < known.cost))
+    /// What sliding its last stop along may save a way.
+    fn slid(&self, found: &Found) -> f64 {
+        let is_straight = self.stop_of(found) == DoorIndex::end();
+        let room = self.nodes[found.node as usize].room;
+        if is_straight { 0.0 } else { 0.5 * APART_M * self.graph.per_m(room) }
+    }
+
+    /// The last door at which a way that was found stops.
+    fn stop_of(&self, found: &Found) -> DoorIndex {
+        found.change.map_or(self.nodes[found.node as usize].stop, |exit| exit.door)
+    }
+
+    /// Whether ways to all rooms are asked for, and those into this one that are known leave a chance that one of this cost is
+    /// the best when they are pulled tight.
+    fn is_news(&self, room: RoomIndex, stop: DoorIndex, cost: f64) -> bool {
+        let Some(known) = self.outcome.rooms.get(room.index()) else { return false };
+        let best = known.iter().map(|known| known.cost).fold(f64::INFINITY, f64::min);
+        if stop == DoorIndex::end() || best.is_infinite() {
+            return cost < best;
+        }
+        let slid = 0.5 * APART_M * self.graph.per_m(room).max(0.0);
+        let beaten = |known: &Found| known.cost <= cost && self.stop_of(known) == stop;
+        cost < best * (1.0 + SLACK) + slid
+            && !known.iter().any(beaten)
+            && (known.len() < MOST_INTO_ROOM || known.iter().any(|known| cost < known.cost))
     }
 
     /// The goals in the room.
@@ -456,16 +500,17 @@ impl<'g> Search<'g> {
         if self.is_entered_before(node, room) {
             return;
         }
+        let is_same = self.graph.per_m(room).to_bits() == here.to_bits();
         let next = |root: Point, way: f64, view: View| Node {
             root,
             cost: node.cost + way * here + weight,
             before: index,
             room,
             door,
+            stop: if is_same { node.stop } else { door },
             bent: false,
             view,
         };
-        let is_same = self.graph.per_m(room).to_bits() == here.to_bits();
         if !is_same {
             let Some(seen) = node.view.of_gate(node.root, segment) else { return };
             for p in self.points(room, seen, node.root) {

@@ -5,7 +5,7 @@ use super::super::mesh::Exit;
 use super::super::parts::{Goal, RoomIndex};
 use super::super::turning::Gate;
 use super::{CLOSE_M, EPSILON, Found, NEAR_M, NO_NODE, Node, Search, View, Wanted, is_cheaper_from};
-use crate::geometry::{Convex, Point};
+use crate::geometry::Point;
 
 impl Search<'_> {
     /// Into another state, to go on from there.
@@ -44,16 +44,14 @@ impl Search<'_> {
             reach(self, node.root);
         }
         let is_anywhere = self.freely.contains(room.index()) || node.before == NO_NODE;
-        for side in area.sides() {
+        for side in graph.sides(door, room) {
             // who starts or ends in a strip too thin for gates changes at its edge
             if !is_anywhere && !self.is_near_a_goal_in(room, &side) {
                 continue;
             }
-            for side in graph.clear_of_walls(room, side) {
-                let Some(seen) = node.view.of(node.root, side) else { continue };
-                for p in self.points(room, seen, node.root) {
-                    reach(self, p);
-                }
+            let Some(seen) = node.view.of(node.root, side) else { continue };
+            for p in self.points(room, seen, node.root) {
+                reach(self, p);
             }
         }
         if self.freely.contains(room.index()) {
@@ -77,19 +75,18 @@ impl Search<'_> {
 
     /// Into a room anywhere in which a way may end: where that is possible first, not where it pays to go on.
     pub(super) fn arrive_by_change(&mut self, index: u32, node: &Node, exit: Exit) {
-        let Exit { door, to: room } = exit;
+        let Exit { to: room, .. } = exit;
         let graph = self.graph;
         let goals: Vec<usize> =
             self.targets_in(room).filter(|target| target.at.is_none()).map(|target| target.goal).collect();
         if goals.is_empty() && self.wanted != Wanted::Rooms || !graph.is_entered(room) {
             return;
         }
-        let Some(area) = graph[door].crossing.area() else { return };
-        let Some(p) = self.first_seen(node, room, area) else { return };
+        let Some(p) = self.first_seen(node, exit) else { return };
         let cost = node.cost + node.root.distance(p) * graph.per_m(node.room);
         let changes = self.changes_at(p, node.room, exit);
         let Some(&(last, weight)) = changes.last() else { return };
-        if goals.is_empty() && !self.is_news(room, cost + weight) {
+        if goals.is_empty() && !self.is_news(room, last.door, cost + weight) {
             return;
         }
         let node = self.all_but_the_last(index, (p, cost), &changes).before;
@@ -101,10 +98,12 @@ impl Search<'_> {
     }
 
     /// The point of an area nearest to where a node comes from, of those that it sees and that lie off walls of a room.
-    fn first_seen(&self, node: &Node, room: RoomIndex, area: &Convex) -> Option<Point> {
+    fn first_seen(&self, node: &Node, exit: Exit) -> Option<Point> {
+        let Exit { door, to: room } = exit;
+        let area = self.graph[door].crossing.area()?;
         let own = Self::samples(node).0[0];
         let own = (area.contains(own) && !self.graph.is_on_wall(room, own)).then_some(own);
-        let sides = area.sides().flat_map(|side| self.graph.clear_of_walls(room, side));
+        let sides = self.graph.sides(door, room);
         let on_sides = sides.filter_map(|side| Some(node.view.of(node.root, side)?.nearest_to(node.root)));
         own.into_iter()
             .chain(on_sides)
@@ -134,6 +133,7 @@ impl Search<'_> {
                 cost: cost + weight,
                 room: exit.to,
                 door: exit.door,
+                stop: exit.door,
                 bent: false,
                 view: View::All,
                 ..node

@@ -47,7 +47,7 @@ impl Outcome {
         match wanted {
             Wanted::One => goals.any(|is_found| is_found),
             Wanted::Goals | Wanted::Rooms => {
-                goals.all(|is_found| is_found) && self.rooms.iter().all(Option::is_some)
+                goals.all(|is_found| is_found) && self.rooms.iter().all(|found| !found.is_empty())
             }
         }
     }
@@ -84,7 +84,7 @@ impl Outcome {
             self.goals[goal] = found;
         }
         for (room, found) in missed.rooms.into_iter().zip(found) {
-            self.rooms[room] = found.first().copied();
+            self.rooms[room] = found;
         }
         self.is_cut |= other.is_cut;
     }
@@ -100,7 +100,7 @@ impl Missed {
     fn of(outcome: &Outcome, goals: &[Goal], joined: &FixedBitSet) -> Self {
         let is_joined = |goal: &Goal| goal.rooms.iter().any(|entry| joined[entry.room.index()]);
         let is_missed = |goal: &usize| outcome.goals[*goal].is_empty() && is_joined(&goals[*goal]);
-        let is_room_missed = |room: &usize| outcome.rooms[*room].is_none() && joined[*room];
+        let is_room_missed = |room: &usize| outcome.rooms[*room].is_empty() && joined[*room];
         Self {
             goals: (0..goals.len()).filter(is_missed).collect(),
             rooms: (0..outcome.rooms.len()).filter(is_room_missed).collect(),
