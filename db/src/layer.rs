@@ -26,16 +26,19 @@ pub struct AreaOutline {
     pub kind: Option<String>,
     /// A JSON list of corners `[[x,y],…]`, metres.
     pub outline: String,
+    /// The direction in which one goes through it, degrees counterclockwise from x; `None`: in any.
+    pub heading: Option<f64>,
 }
 
 impl Record for &AreaOutline {
     const TABLE: &'static str = "area_outlines";
-    const COLUMNS: &'static [&'static str] = &["area", "kind", "outline"];
+    const COLUMNS: &'static [&'static str] = &["area", "kind", "outline", "heading"];
 
     fn bind(&self, values: &mut Values) {
         values.text(&*self.area);
         values.text(self.kind.as_deref());
         values.text(&*self.outline);
+        values.real(self.heading);
     }
 }
 
@@ -103,9 +106,10 @@ async fn layers(connection: &mut SqliteConnection) -> Result<Vec<Layer>> {
 }
 
 async fn area_outlines(connection: &mut SqliteConnection) -> Result<Vec<AreaOutline>> {
-    let query = sqlx::query("SELECT area, kind, outline FROM area_outlines ORDER BY area");
+    let query = sqlx::query("SELECT area, kind, outline, heading FROM area_outlines ORDER BY area");
     let read = |row: &sqlx::sqlite::SqliteRow| -> sqlx::Result<AreaOutline> {
-        Ok(AreaOutline { area: row.try_get(0)?, kind: row.try_get(1)?, outline: row.try_get(2)? })
+        let (area, kind) = (row.try_get(0)?, row.try_get(1)?);
+        Ok(AreaOutline { area, kind, outline: row.try_get(2)?, heading: row.try_get(3)? })
     };
     Ok(query.fetch_all(connection).await?.iter().map(read).collect::<sqlx::Result<_>>()?)
 }

@@ -64,6 +64,8 @@ pub struct Doorway {
     pub height: Option<f64>,
     /// Whether nobody passes it.
     pub closed: Option<bool>,
+    /// The space from which nobody passes it, by the name that people have for it.
+    pub closed_from: Option<String>,
 }
 
 impl Record for &Space {
@@ -88,8 +90,21 @@ impl Record for &Space {
 impl Record for &Doorway {
     const TABLE: &'static str = "doorways";
     const COLUMNS: &'static [&'static str] = &[
-        "doorway", "called", "name", "space1", "space2", "x", "y", "x0", "y0", "x1", "y1", "width", "height",
+        "doorway",
+        "called",
+        "name",
+        "space1",
+        "space2",
+        "x",
+        "y",
+        "x0",
+        "y0",
+        "x1",
+        "y1",
+        "width",
+        "height",
         "closed",
+        "closed_from",
     ];
 
     fn bind(&self, values: &mut Values) {
@@ -107,6 +122,7 @@ impl Record for &Doorway {
         values.real(self.width);
         values.real(self.height);
         values.truth(self.closed);
+        values.text(self.closed_from.as_deref());
     }
 }
 
@@ -135,7 +151,8 @@ pub async fn spaces(connection: &mut SqliteConnection) -> Result<Vec<Space>> {
 /// All doorways, by number.
 pub async fn doorways(connection: &mut SqliteConnection) -> Result<Vec<Doorway>> {
     let query = sqlx::query(
-        "SELECT doorway, called, name, space1, space2, x, y, x0, y0, x1, y1, width, height, closed FROM doorways ORDER BY doorway",
+        "SELECT doorway, called, name, space1, space2, x, y, x0, y0, x1, y1, width, height, closed, closed_from FROM doorways
+         ORDER BY doorway",
     );
     let read = |row: &SqliteRow| -> sqlx::Result<Doorway> {
         Ok(Doorway {
@@ -153,6 +170,7 @@ pub async fn doorways(connection: &mut SqliteConnection) -> Result<Vec<Doorway>>
             width: row.try_get(11)?,
             height: row.try_get(12)?,
             closed: row.try_get(13)?,
+            closed_from: row.try_get(14)?,
         })
     };
     Ok(query.fetch_all(connection).await?.iter().map(read).collect::<sqlx::Result<_>>()?)

@@ -41,7 +41,7 @@ pub use floor::render_floor;
 pub use lanes::render_lanes;
 pub use layers::{Layer, Layers, UnknownLayer};
 pub use png::{PngError, render_png};
-pub use scene::{Closing, Door, PrimeArea, Room, Route, Scene, Step, StepKind};
+pub use scene::{ClosedTo, Closing, Door, PrimeArea, Room, Route, Scene, Step, StepKind};
 pub use style::Style;
 
 use frame::At;

@@ -7,6 +7,7 @@ pub(crate) mod gauge;
 pub(crate) mod itinerary;
 mod layers;
 mod named;
+mod one_way;
 pub(crate) mod pairs;
 mod texts;
 
@@ -35,9 +36,10 @@ use layers::Layer;
 use crate::error;
 use crate::knowledge::told::Whom;
 
-pub use building::Building;
+pub use building::{Building, why_one_way};
 pub use layers::rect_of;
 pub use named::Named;
+pub use one_way::OneWay;
 
 pub use texts::{Texts, word};
 
@@ -138,22 +140,37 @@ impl SiteGraph {
 
     /// Closes doors that are told to let nobody through, and doorways that nobody passes, for every state.
     fn close(&mut self) {
-        let doors = self.closed.iter().map(|&door| (Closer::Door(door), self.of_door(&self.graph[door])));
-        let doorways = self
-            .building
-            .closed()
-            .map(|doorway| (Closer::Doorway(doorway.doorway), self.of_doorway(Building::segment(doorway))));
-        let everybody = |(closer, segments)| (closer, segments, None);
-        let lines = self.building.lines.iter().enumerate().map(|(number, line)| {
+        let (mut closers, mut boundaries) = (Vec::new(), Vec::new());
+        let mut add = |closer, segments: Vec<Segment>, of: Closed| {
+            closers.resize(closers.len() + segments.len(), closer);
+            boundaries.extend(segments.into_iter().map(|segment| Closed { segment, ..of.clone() }));
+        };
+        for &door in &self.closed {
+            let segments = self.of_door(&self.graph[door]);
+            let Some(&of) = segments.first() else { continue };
+            add(Closer::Door(door), segments, Closed::for_all(of));
+        }
+        for doorway in self.building.closed() {
+            let of = match self.building.one_way(doorway) {
+                Some(segment) => Closed::to_left(segment),
+                None => Closed::for_all(Building::segment(doorway)),
+            };
+            add(Closer::Doorway(doorway.doorway), self.of_doorway(of.segment), of);
+        }
+        for (number, line) in self.building.lines.iter().enumerate() {
             let [x0, y0, x1, y1] = line.segment;
             let segment = Segment::new(Point::new(x0, y0), Point::new(x1, y1));
-            (Closer::Line(number), self.of_doorway(segment), self.rooms_of(&line.whom))
-        });
-        let (mut closers, mut boundaries) = (Vec::new(), Vec::new());
-        for (closer, segments, only) in doors.chain(doorways).map(everybody).chain(lines) {
-            closers.resize(closers.len() + segments.len(), closer);
-            let boundary = |segment| Closed { segment, only: only.clone() };
-            boundaries.extend(segments.into_iter().map(boundary));
+            let only = self.rooms_of(&line.whom);
+            let (segments, of) = match &line.area {
+                Some(_) => (vec![segment], Closed::to_left(segment)),
+                None => (self.of_doorway(segment), Closed::for_all(segment)),
+            };
+            add(Closer::Line(number), segments, Closed { only, ..of });
+        }
+        for (number, area) in self.building.one_ways.iter().enumerate() {
+            for of in area.boundaries() {
+                add(Closer::OneWay(number), vec![of.segment], of);
+            }
         }
         self.graph.close(boundaries);
         self.closers = closers;

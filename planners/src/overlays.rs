@@ -14,15 +14,19 @@ pub const AREAS: &str = "AREAS";
 pub const NAMED_DOORS: &str = "NAMED_DOORS";
 
 /// Properties that every object of these classes has, known or not, so that rules may speak of them.
-const OWN: [(&str, &str, &str); 9] = [
+const OWN: [(&str, &str, &str); 13] = [
     (AREAS, "closed", "truth"),
     (AREAS, "hardness_factor", "number"),
+    (AREAS, "heading", "number"),
     (AREAS, "speed_limit", "number"),
     (AREAS, "speed_percent", "number"),
     (AREAS, "whole_body", "truth"),
     (AREAS, "zone", "text"),
+    (AREAS, "zone_direction", "number"),
     (AREAS, "zone_factor", "number"),
+    (AREAS, "zone_limitation", "text"),
     (NAMED_DOORS, "closed", "truth"),
+    (NAMED_DOORS, "closed_from", "text"),
     (NAMED_DOORS, "hardness", "number"),
 ];
 
@@ -72,7 +76,8 @@ pub(crate) fn wanted(
 /// Gives the named areas and doors of the world.
 ///
 /// AREAS by name: `area` (the name), `kind`, `x` and `y` (its middle), `closed`, `hardness_factor`,
-/// `speed_limit` (m/s), `speed_percent`, `whole_body`, `zone`, `zone_factor`. `NAMED_DOORS` by name: `door`
+/// `heading` (in which one goes through it, degrees counterclockwise from x), `speed_limit` (m/s), `speed_percent`, `whole_body`,
+/// `zone`, `zone_direction`, `zone_factor`, `zone_limitation`. `NAMED_DOORS` by name: `door`
 /// (the name), `kind`, `x` and `y` (its middle), `width`, `closed`, `hardness`. Both with whatever else is said of one
 /// of them; what is not said of an object is unknown.
 #[derive(Clone, Debug, Default)]

@@ -151,11 +151,16 @@ impl Shape {
         }
     }
 
-    pub fn sides(&self) -> Vec<Segment> {
+    /// In their order.
+    pub fn corners(&self) -> Vec<Point> {
         match self {
-            Self::Rect(rect) => polygon::sides(&rect.corners()).collect(),
-            Self::Polygon(corners) => polygon::sides(corners).collect(),
+            Self::Rect(rect) => rect.corners().to_vec(),
+            Self::Polygon(corners) => corners.clone(),
         }
+    }
+
+    pub fn sides(&self) -> Vec<Segment> {
+        polygon::sides(&self.corners()).collect()
     }
 
     /// What of it lies in a rectangle; empty where they have no more than an edge in common.

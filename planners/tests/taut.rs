@@ -117,6 +117,27 @@ fn a_closed_boundary_is_shut_for_every_shape() {
     assert_eq!(way(&graph, home, window), Some(before), "the old way, to the bit");
 }
 
+#[test]
+fn a_boundary_that_is_open_one_way_is_passed_that_way_by_every_shape() {
+    let mut graph = graph_of(&two_halls(), &three_shapes(), 0.5);
+    let (home, window) = (Point::new(1.0, 4.0), Point::new(11.0, 7.0));
+    let [there, back] =
+        [(home, window), (window, home)].map(|(from, to)| way(&graph, from, to).unwrap().cost);
+    let doorway = Segment::new(Point::new(6.0, 3.0), Point::new(6.0, 4.0));
+    graph.close(vec![Closed::to_left(doorway)]);
+    assert!(way(&graph, home, window).is_none());
+    assert!((way(&graph, window, home).unwrap().cost - back).abs() < 1e-6);
+    let goal = Goal::within(holding(&graph, window), Some(window));
+    let start = Start::within(holding(&graph, home), home);
+    assert!(matches!(blockage(&graph, &start, &goal), Blockage::Shut(doors) if !doors.is_empty()));
+    graph.close(vec![Closed::to_left(doorway.reversed())]);
+    assert!(way(&graph, window, home).is_none());
+    assert!((way(&graph, home, window).unwrap().cost - there).abs() < 1e-6);
+    // what is open to the one side and to the other lets nobody through
+    graph.close(vec![Closed::to_left(doorway), Closed::to_left(doorway.reversed())]);
+    assert!(way(&graph, home, window).is_none() && way(&graph, window, home).is_none());
+}
+
 /// The whole of a door to pass.
 fn closed_at(door: &RouteDoor) -> Closed {
     Closed::for_all(door.crossing.segment().unwrap())
@@ -257,11 +278,50 @@ proptest! {
         if let Some(way) = way(&graph, from, to) {
             check_legs(&graph, &way, from, to)?;
             for Closed { segment, .. } in &closed {
-                check_keeps_off(&graph, &way, segment)?;
+                check_passes(&graph, &way, segment, Passes::Never)?;
             }
         }
         graph.close(Vec::new());
         prop_assert_eq!(self::way(&graph, from, to), Some(free));
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig {
+        cases: std::env::var("CASES").map_or(96, |cases| cases.parse().unwrap()),
+        max_global_rejects: 100_000,
+        ..ProptestConfig::default()
+    })]
+
+    #[test]
+    fn no_way_crosses_a_boundary_from_the_side_from_which_it_is_closed(
+        blocks in blocks(), pipes in pipes(), from in point(), to in point(), change in 0.0..2.0_f64,
+        closed in prop::collection::vec((any::<prop::sample::Index>(), any::<bool>()), 1..5)
+    ) {
+        let mut graph = graph_of(&with_pipes(&blocks, &pipes), &three_shapes(), change);
+        let free = way(&graph, from, to);
+        prop_assume!(free.is_some());
+        let free = free.unwrap();
+        let passed: Vec<Segment> = free.legs.iter().filter_map(|leg| graph[leg.door?].crossing.segment()).collect();
+        prop_assume!(!passed.is_empty());
+        let boundary = |(door, is_turned): &(prop::sample::Index, bool)| {
+            let segment = *door.get(&passed);
+            if *is_turned { segment.reversed() } else { segment }
+        };
+        let boundaries: Vec<Segment> = closed.iter().map(boundary).collect();
+        graph.close(boundaries.iter().map(|&segment| Closed::to_left(segment)).collect());
+        let way = way(&graph, from, to);
+        if let Some(way) = &way {
+            check_legs(&graph, way, from, to)?;
+            for boundary in &boundaries {
+                check_passes(&graph, way, boundary, Passes::ToLeft)?;
+            }
+        }
+        // what is closed both ways is no shorter
+        graph.close(boundaries.into_iter().map(Closed::for_all).collect());
+        if let Some(shut) = self::way(&graph, from, to) {
+            prop_assert!(way.is_some_and(|way| way.cost <= 1.05 * shut.cost + 1e-9));
+        }
     }
 }
 
@@ -283,8 +343,20 @@ fn with_pipes(blocks: &[(u8, u8, u8, u8)], pipes: &[(u8, bool)]) -> World {
     world
 }
 
-/// A way comes to a closed boundary from one side, if at all, and leaves to that side or round its end.
-fn check_keeps_off(graph: &RouteGraph, way: &Way, boundary: &Segment) -> Result<(), TestCaseError> {
+/// Which way a boundary is crossed, if at all.
+#[derive(Clone, Copy, PartialEq)]
+enum Passes {
+    Never,
+    ToLeft,
+}
+
+/// A way comes to a closed boundary from one side, if at all, and leaves to that side or round its end, or where it may be crossed.
+fn check_passes(
+    graph: &RouteGraph,
+    way: &Way,
+    boundary: &Segment,
+    passes: Passes,
+) -> Result<(), TestCaseError> {
     let seen = |p: Point| (p - boundary.a).seen_along(boundary.direction());
     let (across, along) = (|p: Point| seen(p).y, |p: Point| seen(p).x);
     let is_within = |p: Point| along(p) > 1e-6 && along(p) < boundary.length() - 1e-6;
@@ -299,7 +371,7 @@ fn check_keeps_off(graph: &RouteGraph, way: &Way, boundary: &Segment) -> Result<
         } else if !is_within(from) {
             side = 0.0;
         }
-        if two.abs() > 1e-6 && side * two < 0.0 {
+        if two.abs() > 1e-6 && side * two < 0.0 && (passes == Passes::Never || two < 0.0) {
             let share = one.abs() / (one.abs() + two.abs());
             let at = Point::new(from.x + (to.x - from.x) * share, from.y + (to.y - from.y) * share);
             prop_assert!(!is_within(at), "{leg:?} crosses {boundary:?}");

@@ -3,9 +3,9 @@
 
 #![allow(clippy::print_stdout, reason = "a program's output")]
 
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
-use adit::edit::Edit;
+use adit::edit::{Edit, Lay, Thing};
 use adit::{Answer, KnowledgeBase, Live, Silent, Status};
 use adit_db::history::Author;
 use adit_tests::floor::{Floor, Kind};
@@ -14,9 +14,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let [kind, columns, rows, states, seed @ ..] = arguments.as_slice() else {
         println!(
-            "| floor | pixels | states | rooms | doors | cut | rules | database | all | database | memory | a route | an edit and the next route |"
+            "| floor | pixels | states | rooms | doors | cut | rules | database | all | database | memory | a route | an edit and the next route | an area and the next route |"
         );
-        println!("|---|---|---|---|---|---|---|---|---|---|---|---|---|");
+        println!("|---|---|---|---|---|---|---|---|---|---|---|---|---|---|");
         return Ok(());
     };
     let made = match kind.as_str() {
@@ -55,8 +55,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     Ok(())
 }
 
-/// How long a route takes in a program that holds the site, and how long it is from an edit of one hardness to the next
-/// route: the median and the most of 20 each, across the floor.
+/// How long a route takes in a program that holds the site, how long it is from an edit of one hardness to the next
+/// route, and from an area that is drawn: the median and the most of 20 each (of areas 6), across the floor.
 fn driven(mut live: Live, (width, depth): (f64, f64)) -> Result<String, Box<dyn std::error::Error>> {
     let mut pairs: Vec<[String; 2]> = Vec::new();
     let mut share = 0.0_f64;
@@ -107,7 +107,7 @@ fn driven(mut live: Live, (width, depth): (f64, f64)) -> Result<String, Box<dyn 
             );
         }
     }
-    let told = |times: &mut Vec<std::time::Duration>| {
+    let told = |times: &mut Vec<Duration>| {
         times.sort_unstable();
         match (times.get(times.len() / 2), times.last()) {
             (Some(median), Some(most)) => {
@@ -116,7 +116,38 @@ fn driven(mut live: Live, (width, depth): (f64, f64)) -> Result<String, Box<dyn 
             _ => "no way found".to_owned(),
         }
     };
-    Ok(format!("{} | {}", told(&mut asked), told(&mut edited)))
+    let mut drawn = drawn(&mut live, (width, depth), &pairs)?;
+    Ok(format!("{} | {} | {}", told(&mut asked), told(&mut edited), told(&mut drawn)))
+}
+
+/// How long it is from an area that is laid over the floor to the next route.
+fn drawn(
+    live: &mut Live,
+    (width, depth): (f64, f64),
+    pairs: &[[String; 2]],
+) -> Result<Vec<Duration>, Box<dyn std::error::Error>> {
+    let mut took = Vec::new();
+    for (number, [start, goal]) in pairs.iter().take(6).enumerate() {
+        let (x, y) = (width * (0.2 + 0.1 * number as f64), depth * (0.25 + 0.1 * number as f64));
+        let edit = Edit::Lay(Lay {
+            what: Thing::Area,
+            name: format!("spill {number}"),
+            corners: vec![[x, y], [x + 3.0, y], [x + 3.0, y + 2.0], [x, y + 2.5]],
+            kind: Some("wet".to_owned()),
+            properties: vec![("hardness_factor".to_owned(), "2".to_owned())],
+            until: None,
+        });
+        let author = Author { who: "size".to_owned(), why: "measured".to_owned() };
+        let began = Instant::now();
+        let outcome = live.edit(&edit, &author)?;
+        live.route(start, std::slice::from_ref(goal), None)?;
+        took.push(began.elapsed());
+        if std::env::var_os("STAGES").is_some() {
+            let stages = outcome.stages.iter().map(|stage| format!("{} {:.1?}", stage.name, stage.took));
+            eprintln!("an area and route {:.1?}: {}", took.last(), stages.collect::<Vec<_>>().join(", "));
+        }
+    }
+    Ok(took)
 }
 
 /// The most memory that this process has held, where the system says so (Linux).

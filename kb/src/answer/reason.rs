@@ -10,7 +10,7 @@ use super::Answer;
 use super::basis::Basis;
 use super::ends::Ends;
 use crate::error::{Code, Error, Nearest, Result};
-use crate::graph::{Closer, End, Rules, SiteGraph, is_weighed};
+use crate::graph::{Closer, End, Rules, SiteGraph, is_weighed, why_one_way};
 use crate::knowledge::KnowledgeBase;
 use crate::words::number::number;
 
@@ -69,6 +69,7 @@ impl Basis<'_> {
                 Closer::Line(line) => {
                     return Some(graph.building.why_told_closed(&graph.building.lines[line]));
                 }
+                Closer::OneWay(area) => return Some(why_one_way(&graph.building.one_ways[area])),
             },
         };
         Some(shut(graph, &graph[door], self.rules))

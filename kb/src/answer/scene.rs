@@ -1,11 +1,11 @@
 //! A site as a scene to be drawn: its map, its tables, and a route.
 
 use adit_db::{Store, Tx};
-use adit_planners::geometry::{Convex, Point, Rect};
+use adit_planners::geometry::{Convex, Point, Rect, Segment};
 use adit_planners::world::{Occupancy, Place, Shape, World};
 
 use crate::answer::{Answer, Status};
-use crate::draw::{Closing, Door, PrimeArea, Room, Route, Scene, Step, StepKind};
+use crate::draw::{ClosedTo, Closing, Door, PrimeArea, Room, Route, Scene, Step, StepKind};
 use crate::error::{Code, Error, Result};
 use crate::graph::{Building, SiteGraph, crossing_of, outline_of, rect_of};
 use crate::knowledge::KnowledgeBase;
@@ -150,14 +150,16 @@ fn scene(tx: &mut Tx<'_>, title: &str, world: &World) -> Result<Scene> {
 
 /// The doorways that rules close, and the lines that are told to be closed.
 fn closings(building: &Building) -> Vec<Closing> {
-    let closing = |[x0, y0, x1, y1]: [f64; 4], is_for_all| Closing {
-        from: Point::new(x0, y0),
-        to: Point::new(x1, y1),
-        is_for_all,
-    };
-    let closed = building.doorways.iter().filter(|doorway| doorway.closed == Some(true));
-    let doorways = closed.map(|of| closing([of.x0, of.y0, of.x1, of.y1], true));
-    let lines = building.lines.iter().map(|line| closing(line.segment, line.whom == Whom::All));
+    let closing = |Segment { a, b }, to_whom| Closing { from: a, to: b, to_whom };
+    let doorways = building.closed().map(|doorway| match building.one_way(doorway) {
+        Some(segment) => closing(segment, ClosedTo::OneSide),
+        None => closing(Building::segment(doorway), ClosedTo::All),
+    });
+    let lines = building.lines.iter().map(|line| {
+        let [x0, y0, x1, y1] = line.segment;
+        let to_whom = if line.whom == Whom::All { ClosedTo::All } else { ClosedTo::SomeRobots };
+        closing(Segment::new(Point::new(x0, y0), Point::new(x1, y1)), to_whom)
+    });
     doorways.chain(lines).collect()
 }
 

@@ -21,6 +21,9 @@ pub struct CloseArgs {
     /// The robot that comes through all the same; may be said again
     #[arg(long, value_name = "ROBOT")]
     pub except: Vec<String>,
+    /// The space from which nobody passes the doorway any more; the other way it stays open
+    #[arg(long, value_name = "SPACE", conflicts_with_all = ["only", "except"])]
+    pub from: Option<String>,
     /// When it ends: `2026-11-21T18:00`, `18:00` (the next one), `2h`
     #[arg(long, value_name = "TIME")]
     pub until: Option<String>,
@@ -47,10 +50,11 @@ pub struct OpenArgs {
     pub dry_run: bool,
 }
 
-/// Lets nobody pass.
+/// Lets nobody pass, or nobody who comes from one side.
 pub fn close(args: &CloseArgs) -> Result<()> {
     let (only, except) = (args.only.clone(), args.except.clone());
-    let edit = Edit::Close(Close { what: args.what.clone(), until: args.until.clone(), only, except });
+    let (what, until, from) = (args.what.clone(), args.until.clone(), args.from.clone());
+    let edit = Edit::Close(Close { what, until, only, except, from });
     apply(&build::open(&args.site)?, &edit, args.why.as_deref(), (args.dry_run, args.site.json))
 }
 

@@ -7,7 +7,7 @@ use adit_planners::geometry::Point;
 use super::frame::At;
 use super::labels::Face;
 use super::panel::Panel;
-use super::scene::{Closing, Scene};
+use super::scene::{ClosedTo, Closing, Scene};
 use super::sheet::{Sheet, line, shape_of};
 use super::svg::Svg;
 
@@ -74,23 +74,32 @@ pub(super) fn legend(panel: &mut Panel, sheet: &Sheet) {
             filled(svg, number, &path, 1.0);
         });
     }
-    for (is_for_all, words) in [(true, "closed"), (false, "closed to some robots")] {
-        if sheet.scene.closings.iter().any(|closing| closing.is_for_all == is_for_all) {
+    let closed = [
+        (ClosedTo::All, "closed"),
+        (ClosedTo::SomeRobots, "closed to some robots"),
+        (ClosedTo::OneSide, "open one way"),
+    ];
+    for (to_whom, words) in closed {
+        if sheet.scene.closings.iter().any(|closing| closing.to_whom == to_whom) {
             panel.line(indent, words, "", |svg, (x, y)| {
-                barred(svg, ((x, y), (x + 0.8 * indent, y)), is_for_all, 1.0);
+                barred(svg, ((x, y), (x + 0.8 * indent, y)), to_whom, 1.0);
             });
         }
     }
 }
 
-/// What is closed: a line from end to end, and the sign that people know in its middle.
+/// What is closed: a line from end to end, and the sign that people know in its middle; an arrow where it is open one way.
 pub(super) fn closings(svg: &mut Svg, sheet: &Sheet) {
-    for Closing { from, to, is_for_all } in &sheet.scene.closings {
-        barred(svg, (sheet.frame.at(*from), sheet.frame.at(*to)), *is_for_all, sheet.unit);
+    for Closing { from, to, to_whom } in &sheet.scene.closings {
+        barred(svg, (sheet.frame.at(*from), sheet.frame.at(*to)), *to_whom, sheet.unit);
     }
 }
 
-fn barred(svg: &mut Svg, (from, to): (At, At), is_for_all: bool, unit: f64) {
+fn barred(svg: &mut Svg, (from, to): (At, At), to_whom: ClosedTo, unit: f64) {
+    if to_whom == ClosedTo::OneSide {
+        return open_to_left(svg, (from, to), unit);
+    }
+    let is_for_all = to_whom == ClosedTo::All;
     let dash = if is_for_all { "" } else { "6 4" };
     line(svg, from, to, SHUT, 4.0 * unit, dash);
     let (x, y) = (f64::midpoint(from.0, to.0), f64::midpoint(from.1, to.1));
@@ -98,6 +107,22 @@ fn barred(svg: &mut Svg, (from, to): (At, At), is_for_all: bool, unit: f64) {
     svg.disc((x, y), 7.0 * unit, fill, (SHUT, 1.6 * unit));
     let bar = if is_for_all { "#ffffff" } else { SHUT };
     line(svg, (x - 4.0 * unit, y), (x + 4.0 * unit, y), bar, 2.4 * unit, "");
+}
+
+/// A line that is crossed from its right to its left in the map, whose y axis goes up.
+fn open_to_left(svg: &mut Svg, (from, to): (At, At), unit: f64) {
+    line(svg, from, to, SHUT, 2.0 * unit, "2 3");
+    let (x, y) = (f64::midpoint(from.0, to.0), f64::midpoint(from.1, to.1));
+    let length = (to.0 - from.0).hypot(to.1 - from.1).max(f64::MIN_POSITIVE);
+    let (along, ahead) = (((to.0 - from.0) / length, (to.1 - from.1) / length), 11.0 * unit);
+    // on paper y goes down: what lies to the left in the map does so here as well
+    let point = |ahead: f64, aside: f64| {
+        (x + along.1 * ahead + along.0 * aside, y - along.0 * ahead + along.1 * aside)
+    };
+    line(svg, point(-ahead, 0.0), point(ahead, 0.0), SHUT, 2.4 * unit, "");
+    for aside in [-5.0 * unit, 5.0 * unit] {
+        line(svg, point(ahead, 0.0), point(ahead - 6.0 * unit, aside), SHUT, 2.4 * unit, "");
+    }
 }
 
 pub(super) fn doors(svg: &mut Svg, sheet: &Sheet) {

@@ -65,8 +65,16 @@ impl Scene {
 pub struct Closing {
     pub from: Point,
     pub to: Point,
-    /// Whether to everybody; else some robots pass.
-    pub is_for_all: bool,
+    pub to_whom: ClosedTo,
+}
+
+/// To whom a line is closed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ClosedTo {
+    All,
+    SomeRobots,
+    /// Who comes from its left, as one looks from its first end to its second.
+    OneSide,
 }
 
 /// A row of `rooms`.

@@ -17,7 +17,7 @@ use super::tell::Tell;
 use crate::error::{Code, Error, Result};
 use crate::graph::{Building, Named};
 use crate::knowledge::tables;
-use crate::knowledge::told::closing::{CLOSED, CLOSED_TO, OPEN_TO, lists_robots};
+use crate::knowledge::told::closing::{CLOSED, CLOSED_FROM, CLOSED_TO, OPEN_TO};
 use crate::knowledge::{KnowledgeBase, LAYOUT};
 use crate::plan::course::numbered;
 use crate::words::suggest::{did_you_mean, listed};
@@ -39,6 +39,8 @@ pub struct Close {
     pub only: Vec<String>,
     /// The robots that come through all the same; `only` says nothing then.
     pub except: Vec<String>,
+    /// The space from which nobody passes it, though one still comes back; it is a doorway then.
+    pub from: Option<String>,
 }
 
 impl Close {
@@ -47,6 +49,9 @@ impl Close {
         let what = self.what.trim();
         let (class, object) =
             if tx.site_value(LAYOUT)?.is_some() { of_map(tx, what)? } else { named(tx, what)? };
+        if let Some(from) = &self.from {
+            return self.closing_one_side(tx, (class, object), from);
+        }
         let (property, value) = match (self.only.as_slice(), self.except.as_slice()) {
             ([], []) => (CLOSED, "true".to_owned()),
             (only, []) => (CLOSED_TO, only.join(", ")),
@@ -62,16 +67,68 @@ impl Close {
                 "which robots are kept out is for a rule of PASSAGES, WAYS or TRAVELS to say".to_owned();
             return Err(Error::said(Code::TellUsage, message, Some(help)));
         }
-        if property != CLOSED && !lists_robots(class, property) {
-            let message = format!("`{what}` is an area, and areas are closed to everybody");
-            let help = "close its doorways, or say in rules which robots are kept out".to_owned();
-            return Err(Error::said(Code::TellUsage, message, Some(help)));
-        }
         Ok(Tell {
             class: class.to_owned(),
             object,
             property: property.to_owned(),
             value,
+            until: self.until.clone(),
+            new_property: false,
+        })
+    }
+}
+
+impl Close {
+    /// The fact that closes a doorway to whoever comes from a space.
+    fn closing_one_side(
+        &self,
+        tx: &mut Tx<'_>,
+        (class, object): (&'static str, String),
+        from: &str,
+    ) -> Result<Tell> {
+        let (what, building) = (self.what.trim(), Building::read(tx)?);
+        let refused =
+            |message: String, help: Option<String>| Err(Error::said(Code::TellUsage, message, help));
+        if !self.only.is_empty() || !self.except.is_empty() {
+            let message =
+                format!("what is closed from one side is so for all robots: `{what}` from `{from}`");
+            let help = "leave out `only` and `except`, or close it from both sides".to_owned();
+            return refused(message, Some(help));
+        }
+        let doorway = building.doorway_named(&object);
+        if tx.site_value(LAYOUT)?.is_some() || class != "DOORWAYS" && doorway.is_none() {
+            let message =
+                format!("`{what}` is no doorway between rooms, so it has no side to be closed from");
+            return refused(message, None);
+        }
+        let Some(space) = building.space_named(from) else {
+            let names: Vec<String> =
+                building.spaces.iter().filter_map(|space| building.space(space.space)).collect();
+            let help = did_you_mean(from, names.iter().map(String::as_str));
+            return Err(Error::said(
+                Code::TellUnknownObject,
+                format!("the site has no space called `{from}`"),
+                help.or_else(|| listed("there", names.iter().map(String::as_str))),
+            ));
+        };
+        if let Some(doorway) = doorway
+            && (doorway.space1 == doorway.space2 || ![doorway.space1, doorway.space2].contains(&space.space))
+        {
+            let beside =
+                [doorway.space1, doorway.space2].map(|space| building.space(space).unwrap_or_default());
+            let message = format!("`{what}` does not lead out of `{from}`");
+            let help = if doorway.space1 == doorway.space2 {
+                format!("both its sides are of {}", beside[0])
+            } else {
+                format!("it is between {} and {}", beside[0], beside[1])
+            };
+            return refused(message, Some(help));
+        }
+        Ok(Tell {
+            class: "DOORWAYS".to_owned(),
+            object,
+            property: CLOSED_FROM.to_owned(),
+            value: building.space(space.space).unwrap_or_else(|| from.to_owned()),
             until: self.until.clone(),
             new_property: false,
         })
@@ -121,7 +178,7 @@ fn is_about(fact: &Row, class: &str, row: &[(&str, adit_db::Cell)]) -> bool {
     };
     let ends = fact.segment.map_or([None; 4], |segment| segment.map(Some));
     fact.class == class
-        && [CLOSED, CLOSED_TO, OPEN_TO].contains(&fact.property.as_str())
+        && [CLOSED, CLOSED_TO, OPEN_TO, CLOSED_FROM].contains(&fact.property.as_str())
         && fact.key.as_deref().map(adit_db::Cell::from) == value("key")
         && is_same("x0", ends[0])
         && is_same("y0", ends[1])
@@ -140,7 +197,9 @@ fn as_doorway(tx: &mut Tx<'_>, tell: &Tell) -> Result<Option<Tell>> {
 /// Whether a doorway of this name is closed, by whatever; one that is meant by its point may be.
 fn is_shut(tx: &mut Tx<'_>, what: &str) -> Result<bool> {
     let building = Building::read(tx)?;
-    Ok(building.doorway_named(what.trim()).is_none_or(|doorway| doorway.closed == Some(true)))
+    Ok(building
+        .doorway_named(what.trim())
+        .is_none_or(|doorway| doorway.closed == Some(true) || doorway.closed_from.is_some()))
 }
 
 /// What people have a name for, with its class. A doorway in which a named door stands is that door, whatever it is called.

@@ -36,11 +36,12 @@ pub struct Tell {
 }
 
 /// What values of these properties must be, whatever rules say.
-const KINDS: [(&str, &str, Type); 11] = [
+const KINDS: [(&str, &str, Type); 12] = [
     ("ROBOTS", "berth", Type::Number),
     ("ROBOTS", "berth_cost", Type::Number),
     ("SPACES", "closed", Type::Truth),
     ("DOORWAYS", "closed", Type::Truth),
+    ("DOORWAYS", "closed_from", Type::Text),
     ("PRIME_AREAS", "open", Type::Truth),
     ("ROOMS", "hardness", Type::Number),
     ("ROOMS", "action", Type::Text),

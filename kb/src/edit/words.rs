@@ -31,7 +31,8 @@ impl Edit {
                     (only, []) => Whom::Only(only.to_vec()),
                     (_, except) => Whom::Except(except.to_vec()),
                 };
-                format!("{} is closed{}{until} (fact {key})", close.what, whom.words())
+                let from = close.from.as_ref().map_or_else(String::new, |from| format!(" from {from}"));
+                format!("{} is closed{from}{}{until} (fact {key})", close.what, whom.words())
             }
             Self::Open(what) => format!("{what} is open"),
             Self::Lay(lay) => {

@@ -26,6 +26,8 @@ pub enum Closer {
     Doorway(i64),
     /// What a fact says, by its place among the [lines](super::Building::lines).
     Line(usize),
+    /// An area that one goes through in one direction, by its place among [those](super::Building::one_ways).
+    OneWay(usize),
 }
 
 impl SiteGraph {

@@ -1,12 +1,18 @@
 //! The building's own nouns: its spaces and the doorways between them, with what rules say of them.
 
 use adit_db::Tx;
+use adit_db::layer::AreaOutline;
 use adit_db::space::{Doorway, Space};
 use adit_db::told::Standing;
-use adit_planners::geometry::{Point, Segment};
+use adit_planners::geometry::{Point, Segment, polygon};
 
+use super::one_way::OneWay;
 use crate::error::Result;
-use crate::knowledge::told::{Fact, Line};
+
+use crate::knowledge::told::{Closable, Fact, Line};
+
+/// So far beside a doorway it is looked at which space lies there, metres.
+const OFF_M: [f64; 4] = [0.1, 0.2, 0.4, 0.8];
 
 /// Spaces and doorways, by number from 1.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -15,20 +21,32 @@ pub struct Building {
     pub doorways: Vec<Doorway>,
     /// What is told to be closed for some robots only, or where no doorway is found.
     pub lines: Vec<Line>,
+    /// Areas that one goes through in one direction, by name.
+    pub one_ways: Vec<OneWay>,
 }
 
 impl Building {
     /// As the last build kept it.
     pub fn read(tx: &mut Tx<'_>) -> Result<Self> {
-        let (mut lines, doorways) = (Vec::new(), tx.doorways()?);
+        let (mut lines, doorways, outlines) = (Vec::new(), tx.doorways()?, tx.area_outlines()?);
+        let corners = |row: &AreaOutline| -> Option<Vec<Point>> {
+            let corners: Vec<[f64; 2]> = serde_json::from_str(&row.outline).ok()?;
+            Some(corners.into_iter().map(|[x, y]| Point::new(x, y)).collect())
+        };
+        let areas = |name: &str| outlines.iter().find(|row| row.area == name).and_then(corners);
+        let closable = Closable { doorways: &doorways, areas: &areas };
         let standings = tx.standings()?;
         for row in tx.facts_told()? {
             let is_own = |standing: &&Standing| standing.told == row.id && standing.state == "attached";
             if let Some(standing) = standings.iter().find(is_own) {
-                lines.extend(Fact::of(&row)?.lines(&standing.keys, &doorways));
+                lines.extend(Fact::of(&row)?.lines(&standing.keys, closable));
             }
         }
-        Ok(Self { spaces: tx.spaces()?, doorways, lines })
+        let one_ways = outlines.iter().filter_map(|row| {
+            Some(OneWay { area: row.area.clone(), heading: row.heading?, corners: corners(row)? })
+        });
+        let one_ways = one_ways.collect();
+        Ok(Self { spaces: tx.spaces()?, doorways, lines, one_ways })
     }
 
     /// What people call a space, by its number.
@@ -52,11 +70,21 @@ impl Building {
         doorway.name.clone().unwrap_or_else(|| format!("doorway {}", doorway.doorway))
     }
 
-    /// That a doorway is closed, and which spaces it is between.
+    /// That a doorway is closed, from where, and which spaces it is between.
     pub fn why_closed(&self, number: i64) -> String {
         match self.doorways.iter().find(|doorway| doorway.doorway == number) {
-            Some(doorway) => format!("{} is closed", self.place_of(doorway)),
+            Some(doorway) => format!("{} is {}", self.place_of(doorway), self.standing_of(doorway)),
             None => format!("doorway {number} is closed"),
+        }
+    }
+
+    /// Whether a doorway is open or closed, as it goes on from `is`.
+    fn standing_of(&self, doorway: &Doorway) -> String {
+        match &doorway.closed_from {
+            _ if doorway.closed == Some(true) => "closed".to_owned(),
+            None => "open".to_owned(),
+            Some(from) if self.one_way(doorway).is_some() => format!("closed from {from}"),
+            Some(from) => format!("closed: from `{from}`, which does not lie beside it"),
         }
     }
 
@@ -66,7 +94,10 @@ impl Building {
         format!("{place} is told to be closed{whom} (fact {})", line.fact)
     }
 
-    fn place_of_line(&self, Line { segment, .. }: &Line) -> String {
+    fn place_of_line(&self, Line { segment, area, .. }: &Line) -> String {
+        if let Some(area) = area {
+            return format!("the area `{area}`");
+        }
         let [x0, y0, x1, y1] = *segment;
         let place = self.doorway_at(*segment).map(|doorway| self.place_of(doorway));
         let (x, y) = (f64::midpoint(x0, x1), f64::midpoint(y0, y1));
@@ -78,11 +109,11 @@ impl Building {
         let is_same = |one: &Doorway, other: &Doorway| {
             ends_of(one).map(f64::to_bits) == ends_of(other).map(f64::to_bits)
         };
-        let is_closed = |doorway: &Doorway| doorway.closed == Some(true);
         let doorways = self.doorways.iter().filter_map(|now| {
-            let was = before.doorways.iter().find(|was| is_same(was, now)).is_some_and(is_closed);
-            let is = is_closed(now);
-            (is != was).then(|| format!("{} is {}", self.place_of(now), if is { "closed" } else { "open" }))
+            let was = before.doorways.iter().find(|was| is_same(was, now));
+            let was = was.map_or_else(|| "open".to_owned(), |was| before.standing_of(was));
+            let is = self.standing_of(now);
+            (is != was).then(|| format!("{} is {is}", self.place_of(now)))
         });
         let differ = |some: &Self, others: &Self| -> Vec<Line> {
             let known = |line: &Line| {
@@ -97,7 +128,17 @@ impl Building {
             |line: Line, is: &str| format!("{} is {is}{}", self.place_of_line(&line), line.whom.words());
         let closed = differ(self, before).into_iter().map(|line| said(line, "closed"));
         let opened = differ(before, self).into_iter().map(|line| said(line, "no longer closed"));
-        doorways.chain(closed).chain(opened).collect()
+        let one_ways = self.one_ways.iter().filter(|now| {
+            before.one_ways.iter().all(|was| (&was.area, was.heading) != (&now.area, now.heading))
+        });
+        let one_ways = one_ways.map(why_one_way);
+        let free = before.one_ways.iter().filter(|was| self.one_ways.iter().all(|now| now.area != was.area));
+        let free = free.map(|was| format!("the area `{}` is passed in any direction", was.area));
+        // each side of an area is a line
+        let mut said: Vec<String> =
+            doorways.chain(closed).chain(opened).chain(one_ways).chain(free).collect();
+        said.dedup();
+        said
     }
 
     /// What a doorway is called, where it is, and between which spaces.
@@ -141,10 +182,39 @@ impl Building {
         Segment::new(Point::new(doorway.x0, doorway.y0), Point::new(doorway.x1, doorway.y1))
     }
 
-    /// The doorways that nobody passes.
+    /// The doorways that nobody passes, or nobody from one side.
     pub fn closed(&self) -> impl Iterator<Item = &Doorway> {
-        self.doorways.iter().filter(|doorway| doorway.closed == Some(true))
+        self.doorways.iter().filter(|doorway| doorway.closed == Some(true) || doorway.closed_from.is_some())
     }
+
+    /// Where a doorway that is closed from one side lies, with that side to its left. `None` where it is closed to everybody,
+    /// as it is, too, if the space from which it is closed does not lie beside it.
+    pub fn one_way(&self, doorway: &Doorway) -> Option<Segment> {
+        let from = doorway.closed_from.as_deref().filter(|_| doorway.closed != Some(true))?;
+        let space = self.space_named(from).filter(|space| joins(doorway, space))?;
+        let segment = Self::segment(doorway);
+        let rings: Vec<Vec<[f64; 2]>> = serde_json::from_str(&space.outline).ok()?;
+        let rings: Vec<Vec<Point>> =
+            rings.iter().map(|ring| ring.iter().map(|&[x, y]| Point::new(x, y)).collect()).collect();
+        let holds = |p: Point| polygon::encloses(rings.iter().flat_map(|ring| polygon::sides(ring)), p);
+        let (middle, across) = (segment.middle(), segment.direction().perpendicular());
+        // outlines may keep off a doorway's line by some cells
+        OFF_M.into_iter().find_map(|off| match [off, -off].map(|off| holds(middle + across * off)) {
+            [true, false] => Some(segment),
+            [false, true] => Some(segment.reversed()),
+            _ => None,
+        })
+    }
+}
+
+/// That an area is passed in one direction.
+pub fn why_one_way(OneWay { area, heading, .. }: &OneWay) -> String {
+    format!("the area `{area}` is passed in one direction only, towards {heading} degrees")
+}
+
+/// Whether a space lies beside a doorway that leads into another one.
+fn joins(doorway: &Doorway, space: &Space) -> bool {
+    doorway.space1 != doorway.space2 && [doorway.space1, doorway.space2].contains(&space.space)
 }
 
 /// From x0, y0 to x1, y1.

@@ -6,7 +6,6 @@ pub mod closing;
 use std::collections::{BTreeMap, BTreeSet};
 use std::hash::{Hash, Hasher};
 
-use adit_db::space::Doorway;
 use adit_db::told::{Standing, Told as Row};
 use adit_db::{Cell, Tx};
 use adit_engine::{KnowledgeBase as Inference, Schema, Type, Value};
@@ -19,7 +18,7 @@ use crate::site::clock::{Clock, stored};
 use crate::words::number::number;
 use crate::words::suggest::did_you_mean;
 pub use attach::Attached;
-pub use closing::{Line, Whom};
+pub use closing::{Closable, Line, Whom};
 
 /// Classes and facts that people, robots and tables tell.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -230,8 +229,8 @@ impl Told {
     }
 
     /// What facts close where that is not for rules to say.
-    pub fn lines(&self, attached: &Attached, doorways: &[Doorway]) -> Vec<Line> {
-        self.facts.iter().flat_map(|fact| fact.lines(&attached.keys(fact.id), doorways)).collect()
+    pub fn lines(&self, attached: &Attached, closable: Closable<'_>) -> Vec<Line> {
+        self.facts.iter().flat_map(|fact| fact.lines(&attached.keys(fact.id), closable)).collect()
     }
 
     /// Hours of what is no named area or door, in sentences: mostly a slip of the pen.

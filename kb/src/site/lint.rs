@@ -17,7 +17,7 @@ use crate::site::rules;
 use crate::words::suggest::did_you_mean;
 
 /// Properties that routes and pictures read.
-const READ_BY_ROUTES: [&str; 11] = [
+const READ_BY_ROUTES: [&str; 13] = [
     "ROOMS.hardness",
     "ROOMS.action",
     "ROOMS.passable",
@@ -29,6 +29,8 @@ const READ_BY_ROUTES: [&str; 11] = [
     "SPACES.closed",
     "DOORWAYS.name",
     "DOORWAYS.closed",
+    "DOORWAYS.closed_from",
+    "AREAS.heading",
 ];
 
 /// Every property that is set and never read, in the order of the rules. Without a map all that is concluded is for people

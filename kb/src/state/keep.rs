@@ -170,7 +170,7 @@ impl Kept {
             yaw: world.frame.heading,
         };
         tx.replace_frames(&[frame])?;
-        tx.replace_area_outlines(&rows::area_outlines(&step.world))?;
+        tx.replace_area_outlines(&rows::area_outlines(&step.world, &graph.building))?;
         tx.replace_rules(
             &rule_rows(&state.inputs.rules),
             &witnesses(facts, |at| kept.uses.contains_key(&at)),
@@ -304,6 +304,7 @@ impl Written {
         tx.put_weights::<Door>(doors.map(|(row, weight)| (graph[*row].door, weight)))?;
         if let Some(building) = &step.weighed.building {
             tx.replace_spaces(&building.spaces, &building.doorways)?;
+            tx.replace_area_outlines(&rows::area_outlines(&step.world, building))?;
         }
         tx.restore_blocks(&graph.rooms)?;
         tx.restore_blocks(&graph.doors)?;

@@ -10,10 +10,10 @@ use adit_db::room::Room;
 use adit_db::schema::{Column, Kind, Part, Row, Value};
 use adit_engine::Class;
 use adit_planners::facts::{self, Table};
-use adit_planners::world::{Shape, World};
+use adit_planners::world::World;
 
 use crate::error::{Code, Error, Result};
-use crate::graph::outline_of;
+use crate::graph::{Building, outline_of};
 
 /// The columns of a class, by name, each a problem of its own where it is missing.
 struct Columns<'a> {
@@ -181,14 +181,14 @@ pub fn places(world: &World) -> Vec<Place> {
 }
 
 /// The areas of the map, and those that lie over it, as rows.
-pub fn area_outlines(world: &World) -> Vec<AreaOutline> {
+pub fn area_outlines(world: &World, building: &Building) -> Vec<AreaOutline> {
     let row = |area: &adit_planners::world::Area| {
-        let corners: Vec<[f64; 2]> = match &area.shape {
-            Shape::Rect(rect) => rect.corners().iter().map(|corner| [corner.x, corner.y]).collect(),
-            Shape::Polygon(corners) => corners.iter().map(|corner| [corner.x, corner.y]).collect(),
-        };
+        let corners: Vec<[f64; 2]> =
+            area.shape.corners().into_iter().map(|corner| [corner.x, corner.y]).collect();
         let outline = serde_json::json!(corners).to_string();
-        AreaOutline { area: area.name.clone(), kind: area.kind.clone(), outline }
+        let one_way = building.one_ways.iter().find(|one_way| one_way.area == area.name);
+        let heading = one_way.map(|one_way| one_way.heading);
+        AreaOutline { area: area.name.clone(), kind: area.kind.clone(), outline, heading }
     };
     let mut rows: Vec<AreaOutline> = world.areas.iter().map(row).collect();
     rows.sort_by(|a, b| a.area.cmp(&b.area));

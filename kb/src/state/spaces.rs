@@ -4,9 +4,10 @@ use adit_db::Tx;
 use adit_db::space::{Doorway, Space};
 use adit_engine::KnowledgeBase as Inference;
 use adit_planners::facts::{Column, Table};
+use adit_planners::world::World;
 
 use crate::error::Result;
-use crate::graph::Building;
+use crate::graph::{Building, OneWay};
 use crate::knowledge::classes;
 
 /// Spaces and doorways as the inference knows them, with what rules say; those that lack what planners give are none.
@@ -47,7 +48,8 @@ pub fn known(knowledge: &Inference) -> Building {
     let [keys, one, other, x, y, x0, y0, x1, y1, widths, heights] =
         ["doorway", "space1", "space2", "x", "y", "x0", "y0", "x1", "y1", "width", "height"]
             .map(|property| numbers("DOORWAYS", property));
-    let [called, names] = ["called", "name"].map(|property| texts("DOORWAYS", property));
+    let [called, names, closed_from] =
+        ["called", "name", "closed_from"].map(|property| texts("DOORWAYS", property));
     let closed = truths("DOORWAYS", "closed");
     let doorway = |row: usize| {
         Some(Doorway {
@@ -65,9 +67,28 @@ pub fn known(knowledge: &Inference) -> Building {
             width: at(&widths, row)?,
             height: at(&heights, row),
             closed: at(&closed, row),
+            closed_from: at(&closed_from, row),
         })
     };
-    Building { spaces, doorways: (0..keys.len()).filter_map(doorway).collect(), lines: Vec::new() }
+    let doorways = (0..keys.len()).filter_map(doorway).collect();
+    Building { spaces, doorways, ..Building::default() }
+}
+
+/// The areas that one goes through in one direction, as the inference knows them, by name.
+pub fn one_ways(knowledge: &Inference, world: &World) -> Vec<OneWay> {
+    let Some(Column::Number(headings)) = classes::column(knowledge, "AREAS", "heading") else {
+        return Vec::new();
+    };
+    let Some(Column::Text(names)) = classes::column(knowledge, "AREAS", "area") else { return Vec::new() };
+    let mut found: Vec<OneWay> = std::iter::zip(names, headings)
+        .filter_map(|(name, heading)| {
+            let (area, heading) = (name?, heading?);
+            let of = world.areas.iter().find(|of| of.name == area)?;
+            Some(OneWay { area, heading, corners: of.shape.corners() })
+        })
+        .collect();
+    found.sort_by(|one, other| one.area.cmp(&other.area));
+    found
 }
 
 /// What the planner of spaces and doorways gave of one of its classes, as the last build kept it; `None` for another class.
@@ -103,8 +124,9 @@ pub fn recalled(class: &str, tx: &mut Tx<'_>) -> Result<Option<Table>> {
                 .with("y1", number(|row| row.y1))
                 .with("width", number(|row| row.width));
             let closed = Column::Truth(vec![None; rows.len()]);
+            let closed_from = Column::Text(vec![None; rows.len()]);
             let heights = rows.iter().map(|row| row.height).collect::<Column>();
-            Some(table.with("height", heights).with("closed", closed))
+            Some(table.with("height", heights).with("closed", closed).with("closed_from", closed_from))
         }
         _ => None,
     })

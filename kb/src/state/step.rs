@@ -103,7 +103,7 @@ impl State {
         let which = if given.is_any { Which::All } else { Which::Touched(&changes) };
         let mut look = Look { knowledge, rules, which, reasons: Some(&mut reasons) };
         let building =
-            look.building(|doorways| told.lines(&attached, doorways), &before.building).map(Arc::new);
+            look.building(|closable| told.lines(&attached, closable), &world, &before.building).map(Arc::new);
         if given.rooms.is_some() || given.doors.is_some() {
             let mut rooms = given.rooms.unwrap_or_else(|| before.rooms.clone());
             let mut doors = given.doors.unwrap_or_else(|| before.doors.clone());

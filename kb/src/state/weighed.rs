@@ -11,9 +11,10 @@ use adit_db::space::Doorway;
 use adit_db::weight::Weight;
 use adit_engine::{Changes, KnowledgeBase as Inference, RuleBase, Value};
 use adit_planners::routes::{DoorIndex, RoomIndex};
+use adit_planners::world::World;
 
 use crate::graph::Building;
-use crate::knowledge::told::Line;
+use crate::knowledge::told::{Closable, Line};
 use crate::state::grounds::{Reason, Reasons};
 use crate::state::spaces;
 
@@ -117,24 +118,34 @@ impl Look<'_, '_> {
     ///
     /// # Arguments
     /// `lines` are what facts close, where doorways are known; `before` is what was said.
-    pub fn building(&self, lines: impl Fn(&[Doorway]) -> Vec<Line>, before: &Building) -> Option<Building> {
+    pub fn building(
+        &self,
+        lines: impl Fn(Closable<'_>) -> Vec<Line>,
+        world: &World,
+        before: &Building,
+    ) -> Option<Building> {
         let said = [
             ("SPACES", "name"),
             ("SPACES", "kind"),
             ("SPACES", "closed"),
             ("DOORWAYS", "name"),
             ("DOORWAYS", "closed"),
+            ("DOORWAYS", "closed_from"),
         ];
         let may_differ = said.iter().any(|(class, property)| self.may_differ(class, property));
+        let one_ways = spaces::one_ways(self.knowledge, world);
+        let areas =
+            |name: &str| world.areas.iter().find(|area| area.name == name).map(|area| area.shape.corners());
+        let lines = |doorways: &[Doorway]| lines(Closable { doorways, areas: &areas });
         let now = if may_differ {
             let known = spaces::known(self.knowledge);
-            Building { lines: lines(&known.doorways), ..known }
+            Building { lines: lines(&known.doorways), one_ways, ..known }
         } else {
             let lines = lines(&before.doorways);
-            if lines == before.lines {
+            if lines == before.lines && one_ways == before.one_ways {
                 return None;
             }
-            Building { lines, ..before.clone() }
+            Building { lines, one_ways, ..before.clone() }
         };
         (now != *before).then_some(now)
     }

@@ -22,11 +22,22 @@ pub(super) const CLEAR_M: f64 = 0.01;
 impl Closed {
     /// For whoever comes along.
     pub fn for_all(segment: Segment) -> Self {
-        Self { segment, only: None }
+        Self { segment, is_open_to_left: false, only: None }
+    }
+
+    /// For whoever comes from its left: one passes it to that side only.
+    pub fn to_left(segment: Segment) -> Self {
+        Self { is_open_to_left: true, ..Self::for_all(segment) }
     }
 
     pub fn holds_for(&self, room: RoomIndex) -> bool {
         self.only.as_ref().is_none_or(|only| only.iter().any(|rooms| rooms.contains(&room.index())))
+    }
+
+    /// Of two rooms that lie on either side of it, which it may be crossed into.
+    fn leads_into(&self, rooms: [&Convex; 2]) -> [bool; 2] {
+        let Segment { a, b } = self.segment;
+        rooms.map(|room| self.is_open_to_left && cross(a, b, room.centre()) > 0.0)
     }
 
     /// A room's parts on both sides, where the boundary lies within it: one that goes along a side lies on the doors there.
@@ -139,8 +150,8 @@ impl Cut {
             begins(rooms.start)..begins(rooms.end)
         };
         let wall = |closed: &Closed| Closed {
-            segment: closed.segment,
             only: closed.only.as_ref().map(|only| only.iter().map(parts_of).collect()),
+            ..closed.clone()
         };
         all.graph.walls = of.closed.iter().map(wall).collect();
         all
@@ -150,7 +161,7 @@ impl Cut {
     /// `shut`.
     fn add_pieces(
         &self,
-        (outlines, closed): (&[Convex], &[Closed]),
+        cut @ (outlines, _): (&[Convex], &[Closed]),
         door: &RouteDoor,
         (doors, shut): (&mut Vec<RouteDoor>, &mut Vec<RouteDoor>),
     ) {
@@ -168,7 +179,7 @@ impl Cut {
                 if piece.is_change() {
                     doors.push(piece);
                 } else {
-                    divide((&piece, door.room1), closed, doors, shut);
+                    divide((&piece, door.room1), cut, doors, shut);
                 }
             }
         }
@@ -177,7 +188,7 @@ impl Cut {
     /// The openings between parts of one room, as far as no boundary closes them.
     fn add_openings(
         &self,
-        (outlines, closed): (&[Convex], &[Closed]),
+        cut @ (outlines, _): (&[Convex], &[Closed]),
         (doors, shut): (&mut Vec<RouteDoor>, &mut Vec<RouteDoor>),
     ) {
         for parts in &self.parts {
@@ -195,7 +206,7 @@ impl Cut {
                         passable: true,
                         one_way: false,
                     };
-                    divide((&opening, self.rooms[room1.index()]), closed, doors, shut);
+                    divide((&opening, self.rooms[room1.index()]), cut, doors, shut);
                 }
             }
         }
@@ -287,25 +298,44 @@ fn within(crossing: &Crossing, rooms: [&Convex; 2]) -> Option<Crossing> {
     }
 }
 
+/// A part of a door, and whether it is passed from its first room to its second, and back.
+type Part = (Segment, [bool; 2]);
+
 /// Adds the parts of a door out of a room that no boundary closes to `doors`, the others, each by the number of its boundary,
-/// to `shut`.
+/// to `shut`; what may be passed one way only stands in both.
 fn divide(
     (door, room): (&RouteDoor, RoomIndex),
-    closed: &[Closed],
+    (outlines, closed): (&[Convex], &[Closed]),
     doors: &mut Vec<RouteDoor>,
     shut: &mut Vec<RouteDoor>,
 ) {
     let Some(segment) = door.crossing.segment() else { return };
-    let mut open = vec![segment];
+    let mut open: Vec<Part> = vec![(segment, [true, !door.one_way])];
     for (number, boundary) in (0..).zip(closed).filter(|(_, boundary)| boundary.holds_for(room)) {
         let Some(part) = segment.shared_with(&boundary.segment) else { continue };
         let crossing = Crossing::Through(part);
         shut.push(RouteDoor { door: number, crossing, passable: false, ..door.clone() });
-        open = open.iter().flat_map(|open| without(*open, &[part])).collect();
+        let leads = boundary.leads_into([door.room1, door.room2].map(|room| &outlines[room.index()]));
+        let narrow = |(open, ways): Part| -> Vec<Part> {
+            let rest = without(open, &[part]).into_iter().map(move |rest| (rest, ways));
+            let ways = [ways[0] && leads[1], ways[1] && leads[0]];
+            let within = open.shared_with(&part).filter(|_| ways != [false; 2]);
+            rest.chain(within.map(|within| (within, ways))).collect()
+        };
+        open = open.into_iter().flat_map(narrow).collect();
     }
-    let piece = |part: Segment| RouteDoor { crossing: Crossing::Through(part), ..door.clone() };
+    let piece = |(part, ways): Part| {
+        let [room1, room2] = if ways[0] { [door.room1, door.room2] } else { [door.room2, door.room1] };
+        RouteDoor {
+            room1,
+            room2,
+            crossing: Crossing::Through(part),
+            one_way: ways != [true; 2],
+            ..door.clone()
+        }
+    };
     // past the end of a boundary, a rounding is no way around it
-    let is_way = |part: &Segment| *part == segment || part.length() > SNAP_M;
+    let is_way = |(part, _): &Part| *part == segment || part.length() > SNAP_M;
     doors.extend(open.into_iter().filter(is_way).map(piece));
 }
 

@@ -250,10 +250,12 @@ impl Index<DoorIndex> for RouteGraph {
     }
 }
 
-/// A boundary that no way crosses.
+/// A boundary that no way crosses, or none from one side.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Closed {
     pub segment: Segment,
+    /// Whether ways may cross it from its right to its left, as one looks from its first end to its second.
+    pub is_open_to_left: bool,
     /// The rooms for which it is closed, by index; `None`: for all.
     pub only: Option<Vec<Range<usize>>>,
 }

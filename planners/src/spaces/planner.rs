@@ -11,7 +11,7 @@ use crate::world::World;
 
 const NAME: &str = "spaces and doorways";
 
-const GIVES: [&str; 21] = [
+const GIVES: [&str; 22] = [
     "SPACES.space",
     "SPACES.called: text",
     "SPACES.area",
@@ -33,6 +33,7 @@ const GIVES: [&str; 21] = [
     "DOORWAYS.width",
     "DOORWAYS.height",
     "DOORWAYS.closed: truth",
+    "DOORWAYS.closed_from: text",
 ];
 
 /// Gives the spaces of a building and the doorways between them, the same for all robots; metres.
@@ -40,7 +41,8 @@ const GIVES: [&str; 21] = [
 /// SPACES by number: `called` (the only place in it, else the only area whose middle lies in it), `area`, `breadth` (where it
 /// is widest, at `x` and `y`), `outline` (a JSON array of rings of `[x, y]`, the outer one first). DOORWAYS by number:
 /// `called` (the named door that lies there), the two spaces, its ends, its middle, `width`, and `height`, the lowest bridge
-/// over it, unknown where there is none. Whether either is `closed` is for rules, and for whoever tells it. A named door is a doorway wherever it is drawn.
+/// over it, unknown where there is none. Whether either is `closed`, and from which space alone (`closed_from`, by name), is for
+/// rules, and for whoever tells it. A named door is a doorway wherever it is drawn.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct SpacesAndDoorways;
 
@@ -129,4 +131,5 @@ fn doorways(world: &World, found: &[Doorway]) -> Table {
         .with("width", column(|doorway| doorway.segment.length()))
         .with("height", found.iter().map(height).collect::<Column>())
         .with("closed", Column::Truth(vec![None; found.len()]))
+        .with("closed_from", Column::Text(vec![None; found.len()]))
 }

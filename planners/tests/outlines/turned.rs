@@ -42,8 +42,7 @@ impl Turn {
             graph.rooms().iter().map(room).collect(),
             graph.doors().iter().map(door).collect(),
         );
-        let closed =
-            |closed: &Closed| Closed { segment: self.segment(closed.segment), only: closed.only.clone() };
+        let closed = |closed: &Closed| Closed { segment: self.segment(closed.segment), ..closed.clone() };
         turned.close(graph.closed().iter().map(closed).collect());
         turned
     }

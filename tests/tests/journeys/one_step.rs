@@ -112,12 +112,14 @@ fn step(chance: &mut Chance) -> Step {
             }
             let until = chance.is(0.4).then(|| "2030-01-01T12:00:00Z".to_owned());
             let some = || vec![ROBOT.to_owned()];
-            let (only, except) = match chance.below(4) {
+            let (only, except) = match chance.below(5) {
                 0 => (some(), Vec::new()),
                 1 => (Vec::new(), some()),
                 _ => Default::default(),
             };
-            Step::Edit(Edit::Close(Close { what, until, only, except }))
+            let is_one_way = only.is_empty() && except.is_empty() && chance.is(0.3);
+            let from = is_one_way.then(|| ["space 1", "space 2"][chance.below(2)].to_owned());
+            Step::Edit(Edit::Close(Close { what, until, only, except, from }))
         }
         12 => {
             let name = ["pallets", "spill"][chance.below(2)].to_owned();
@@ -134,7 +136,13 @@ fn step(chance: &mut Chance) -> Step {
                 name,
                 corners,
                 kind: (is_area && chance.is(0.5)).then(|| "keep-out".to_owned()),
-                properties: if is_area { vec![factor] } else { Vec::new() },
+                properties: if !is_area {
+                    Vec::new()
+                } else if chance.is(0.3) {
+                    vec![factor, ("heading".to_owned(), number(chance, 0.0, 360.0))]
+                } else {
+                    vec![factor]
+                },
                 until: chance.is(0.4).then(|| "2030-01-01T12:00:00Z".to_owned()),
             }))
         }

@@ -61,7 +61,7 @@ fn building() -> Arc<Building> {
     let space = |number: i64| Space { space: number, name: name(number), ..Space::default() };
     let doorway = Doorway { doorway: 1, space1: 1, space2: 2, ..Doorway::default() };
     let (spaces, doorways) = ((1..4).map(space).collect(), vec![doorway]);
-    Arc::new(Building { spaces, doorways, lines: Vec::new() })
+    Arc::new(Building { spaces, doorways, ..Building::default() })
 }
 
 fn door(number: usize, rooms: [usize; 2], all: &[Room]) -> Door {

@@ -2,6 +2,7 @@
 
 use adit_db::space::Doorway;
 use adit_engine::Value;
+use adit_planners::geometry::{Point, Segment, polygon};
 
 use super::{Fact, Object};
 
@@ -14,8 +15,18 @@ pub const CLOSED_TO: &str = "closed_to";
 /// The robots that come through, and no others.
 pub const OPEN_TO: &str = "open_to";
 
-/// What people can close for some robots only: what doorways lead through.
-const FOR_SOME: [&str; 3] = ["DOORWAYS", "SPACES", "NAMED_DOORS"];
+/// The space from which nobody passes.
+pub const CLOSED_FROM: &str = "closed_from";
+
+/// What people can close for some robots only.
+const FOR_SOME: [&str; 4] = ["DOORWAYS", "SPACES", "NAMED_DOORS", "AREAS"];
+
+/// What a fact may close: the doorways, and the corners of the areas, by name.
+#[derive(Clone, Copy)]
+pub struct Closable<'a> {
+    pub doorways: &'a [Doorway],
+    pub areas: &'a dyn Fn(&str) -> Option<Vec<Point>>,
+}
 
 /// Who is kept out.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,6 +44,8 @@ pub struct Line {
     /// From x0, y0 to x1, y1.
     pub segment: [f64; 4],
     pub whom: Whom,
+    /// The area of which it is a side: who is inside comes out, to the left of the segment.
+    pub area: Option<String>,
 }
 
 impl Whom {
@@ -70,10 +83,11 @@ impl Fact {
         lists_robots(&self.class, &self.property)
     }
 
-    /// Whom it keeps out of what it is about; `None` where it closes nothing.
+    /// Whom it keeps out of what it is about; `None` where it closes nothing. What is closed from one side of a doorway that is
+    /// there no more is closed from both.
     pub fn keeps_out(&self) -> Option<Whom> {
         match (self.property.as_str(), &self.value) {
-            (CLOSED, Value::Truth(true)) => Some(Whom::All),
+            (CLOSED, Value::Truth(true)) | (CLOSED_FROM, Value::Text(_)) => Some(Whom::All),
             (CLOSED_TO, Value::Text(list)) if self.is_for_some() => Some(Whom::Only(names(list))),
             (OPEN_TO, Value::Text(list)) if self.is_for_some() => Some(Whom::Except(names(list))),
             _ => None,
@@ -90,14 +104,28 @@ impl Fact {
     ///
     /// # Arguments
     /// `keys` are those of the objects that it is about.
-    pub fn lines(&self, keys: &[String], doorways: &[Doorway]) -> Vec<Line> {
+    pub fn lines(&self, keys: &[String], Closable { doorways, areas }: Closable<'_>) -> Vec<Line> {
         let Some(whom) = self.keeps_out() else { return Vec::new() };
-        let line = |segment: [f64; 4]| Line { fact: self.id, segment, whom: whom.clone() };
+        let line = |segment: [f64; 4]| Line { fact: self.id, segment, whom: whom.clone(), area: None };
         if keys.is_empty() {
             return self.closes().map(line).into_iter().collect();
         }
         if whom == Whom::All {
             return Vec::new();
+        }
+        if self.class == "AREAS" {
+            let outlines = keys.iter().filter_map(|area| Some((area, areas(area)?)));
+            let sides = |(area, corners): (&String, Vec<Point>)| -> Vec<Line> {
+                let is_left_inside =
+                    polygon::sides(&corners).map(|side| side.a.cross(side.b)).sum::<f64>() > 0.0;
+                let outwards = |side: Segment| if is_left_inside { side.reversed() } else { side };
+                let of = |side: Segment| {
+                    let Segment { a, b } = outwards(side);
+                    Line { area: Some(area.clone()), ..line([a.x, a.y, b.x, b.y]) }
+                };
+                polygon::sides(&corners).map(of).collect()
+            };
+            return outlines.flat_map(sides).collect();
         }
         let is_key = |key: &str| keys.iter().any(|of| of == key);
         let is_meant = |doorway: &&Doorway| match self.class.as_str() {

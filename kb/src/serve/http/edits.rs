@@ -106,6 +106,9 @@ pub enum Wish {
         /// The robots that come through all the same.
         #[serde(default)]
         except: Vec<String>,
+        /// The space from which nobody passes the doorway; the other way it stays open.
+        #[serde(default)]
+        from: Option<String>,
         /// When it ends: `18:00`, `2h`, `2026-11-21T18:00:00Z`.
         #[serde(default)]
         until: Option<String>,
@@ -183,9 +186,9 @@ impl Wish {
                 let value = value.text();
                 Edit::Tell(Tell { class, object, property, value, until, new_property: false })
             }
-            Self::Close { what, only, except, until, for_seconds } => {
+            Self::Close { what, only, except, from, until, for_seconds } => {
                 let until = until.or(for_seconds.map(|seconds| format!("{seconds} seconds")));
-                Edit::Close(Close { what, until, only, except })
+                Edit::Close(Close { what, until, only, except, from })
             }
             Self::Open { what } => Edit::Open(what),
             Self::Lay(LaidBody { until: Some(_), for_seconds: Some(_), .. }) => {
@@ -350,7 +353,8 @@ pub struct BlockedBody {
     responses((status = 200, body = Edited)))]
 pub async fn blocked(site: Site, caller: Caller, Body(body): Body<BlockedBody>) -> Answered<Json<Edited>> {
     let BlockedBody { x, y, heading, only, except, until, for_seconds, why } = body;
-    let wish = Wish::Close { what: format!("{x},{y}@{heading}"), only, except, until, for_seconds };
+    let wish =
+        Wish::Close { what: format!("{x},{y}@{heading}"), only, except, from: None, until, for_seconds };
     require(&caller, wish.role())?;
     make(&site, &caller, wish.edit()?, why.unwrap_or_default()).await.map(Json)
 }

@@ -290,6 +290,8 @@ struct Nouns {
     name: Vec<String>,
     /// Whether nobody passes it; of a space, whether nobody comes in or out.
     closed: Vec<bool>,
+    /// The space from which alone nobody passes a doorway; null: it is the same both ways.
+    closed_from: Vec<Option<String>>,
 }
 
 #[derive(Serialize, ToSchema)]
@@ -333,10 +335,12 @@ pub async fn weights(site: Site) -> Json<WeightsAnswer> {
         spaces: Nouns {
             name: building.spaces.iter().filter_map(|space| building.space(space.space)).collect(),
             closed: building.spaces.iter().map(|space| space.closed == Some(true)).collect(),
+            closed_from: vec![None; building.spaces.len()],
         },
         doorways: Nouns {
             name: building.doorways.iter().map(Building::name).collect(),
             closed: building.doorways.iter().map(|doorway| doorway.closed == Some(true)).collect(),
+            closed_from: building.doorways.iter().map(|doorway| doorway.closed_from.clone()).collect(),
         },
         closings: building
             .lines

@@ -3,9 +3,10 @@
 
 use std::path::{Path, PathBuf};
 
-use adit::Live;
 use adit::edit::{Close, Edit};
-use adit_planners::geometry::Point;
+use adit::{Answer, Live};
+use adit_db::history::Author;
+use adit_planners::geometry::{Point, Segment, polygon};
 use adit_tests::oracle::random::Chance;
 use adit_tests::{TestSite, shared};
 
@@ -22,6 +23,8 @@ enum What {
     Doorway,
     /// A doorway on the way, for the robot that goes there and no other one.
     DoorwayForOne,
+    /// A doorway on the way, from the space from which the way comes.
+    OneWay,
     /// Whatever is ahead of a robot that stands somewhere on the way.
     Ahead,
 }
@@ -43,6 +46,36 @@ fn doorways(site: &TestSite) -> Vec<(String, [Point; 2])> {
         (number, [Point::new(ends[0], ends[1]), Point::new(ends[2], ends[3])])
     };
     rows.iter().map(read).collect()
+}
+
+/// The names of the spaces that a doorway is between, the one first that lies to the left of its segment.
+fn beside(site: &TestSite, number: &str, [a, b]: [Point; 2]) -> [String; 2] {
+    let middle = a.lerp(b, 0.5);
+    let along = (b - a) * (1.0 / a.distance(b));
+    let names = site.sqlite3(&format!(
+        "SELECT coalesce(s.name, 'space ' || s.space) || '|' || s.outline FROM spaces s
+         JOIN doorways d ON s.space IN (d.space1, d.space2) WHERE d.doorway = {number}"
+    ));
+    let left_of = |row: &String| {
+        let (name, outline) = row.split_once('|').unwrap();
+        let rings: Vec<Vec<[f64; 2]>> = serde_json::from_str(outline).unwrap();
+        let sides = rings.iter().flat_map(|ring| {
+            let corner = |at: usize| Point::new(ring[at % ring.len()][0], ring[at % ring.len()][1]);
+            (0..ring.len()).map(move |at| Segment::new(corner(at), corner(at + 1))).collect::<Vec<_>>()
+        });
+        let sides: Vec<Segment> = sides.collect();
+        let near = [0.3, 0.5, 0.8].into_iter().find_map(|off| {
+            let left = middle + along.perpendicular() * off;
+            let right = middle + along.perpendicular() * -off;
+            let [left, right] = [left, right].map(|p| polygon::encloses(sides.iter().copied(), p));
+            (left != right).then_some(left)
+        });
+        (near, name.to_owned())
+    };
+    match &names.iter().map(left_of).collect::<Vec<_>>()[..] {
+        [(Some(true), one), (_, other)] | [(_, other), (Some(true), one)] => [one.clone(), other.clone()],
+        found => panic!("doorway {number} is not between two spaces: {found:?}"),
+    }
 }
 
 /// Closes something on random routes, one by one: how many left a way.
@@ -73,7 +106,7 @@ fn close_on_random_routes(site: &TestSite, (what, count, seed): (What, usize, u6
         };
         let untouched = others(&live);
         let (edit, at) = match what {
-            What::Doorway | What::DoorwayForOne => {
+            What::Doorway | What::DoorwayForOne | What::OneWay => {
                 let is_passed =
                     |segment: [Point; 2]| points.windows(2).any(|leg| crosses(segment, leg[0], leg[1]));
                 let passed: Vec<&(String, [Point; 2])> =
@@ -81,7 +114,12 @@ fn close_on_random_routes(site: &TestSite, (what, count, seed): (What, usize, u6
                 if passed.is_empty() {
                     continue;
                 }
-                let (number, _) = passed[chance.below(passed.len())];
+                let (number, segment) = passed[chance.below(passed.len())];
+                if what == What::OneWay {
+                    one_way(site, (&mut live, &author()), (number, *segment), (&start, &goal[0], &robot));
+                    closed += 1;
+                    continue;
+                }
                 let only = if what == What::DoorwayForOne { vec![robot.clone()] } else { Vec::new() };
                 let what = format!("doorway {number}");
                 (Edit::Close(Close { what, only, ..Close::default() }), None)
@@ -127,6 +165,128 @@ fn close_on_random_routes(site: &TestSite, (what, count, seed): (What, usize, u6
     left
 }
 
+/// Closes a doorway that a way passes from the side from which it comes: it goes there no more. From the other side, it stays.
+fn one_way(
+    site: &TestSite,
+    (live, author): (&mut Live, &Author),
+    (number, [a, b]): (&str, [Point; 2]),
+    (start, goal, robot): (&str, &str, &str),
+) {
+    let goals = [goal.to_owned()];
+    let route = |live: &Live| live.route(start, &goals, Some(robot)).unwrap();
+    let before = route(live);
+    let is_left = |p: Point| (b - a).cross(p - a) > 0.0;
+    // whether ways lead from the left to the right, and back, where they pass it
+    let passes = |route: &Answer| {
+        let points: Vec<Point> = route.waypoints.iter().map(|point| Point::new(point.x, point.y)).collect();
+        let passed = points.windows(2).filter(|leg| crosses([a, b], leg[0], leg[1]));
+        let from_left: Vec<bool> = passed.map(|leg| is_left(leg[0])).collect();
+        [from_left.contains(&true), from_left.contains(&false)]
+    };
+    let spaces = beside(site, number, [a, b]);
+    for (side, from) in spaces.into_iter().enumerate() {
+        let what = format!("doorway {number}");
+        let edit = Edit::Close(Close { what, from: Some(from.clone()), ..Close::default() });
+        live.edit(&edit, author).unwrap();
+        let after = route(live);
+        let told = format!("{start} to {goal}, {robot}, doorway {number} from {from}");
+        assert!(!passes(&after)[side], "{told}: passed from there");
+        if !passes(&before)[side] {
+            let (was, is) = (before.cost.unwrap(), after.cost.expect(&told));
+            assert!(
+                (is / was - 1.0).abs() < 0.011,
+                "{told}: {was} and {is}, though it comes from the other side"
+            );
+        }
+        if after.cost.is_none() {
+            let reason = after.reason.expect(&told);
+            assert!(reason.contains(&format!("closed from {from}")), "{told}: {reason}");
+        }
+        live.edit(&Edit::Undo(None), author).unwrap();
+        let again = route(live);
+        assert_eq!((&again.steps, &again.waypoints), (&before.steps, &before.waypoints), "to the bit");
+    }
+}
+
+#[test]
+fn on_the_clinic_a_doorway_is_closed_from_one_side() {
+    close_on_random_routes(&TestSite::example("clinic").built(), (What::OneWay, 8, 6));
+}
+
+#[test]
+fn what_is_closed_from_one_side_is_said_shown_and_refused_in_words() {
+    let site = TestSite::example("clinic").built();
+    let row = site.sqlite3(
+        "SELECT d.name || '|' || one.name || '|' || other.name FROM doorways d JOIN spaces one ON one.space = d.space1
+         JOIN spaces other ON other.space = d.space2 WHERE d.space1 <> d.space2 AND other.name = 'ward 12'",
+    );
+    let parts: Vec<&str> = row[0].split('|').collect();
+    let (name, outside) = (parts[0], parts[1]);
+    let said = site.adit("close", &[name, "--from", outside, "--why", "wet floor"]).expecting(0).stdout;
+    assert!(
+        said.contains(&format!("between {outside} and ward 12, is closed from {outside} (fact 1)")),
+        "{said}"
+    );
+    assert_eq!(
+        site.sqlite3("SELECT name, closed_from FROM doorways WHERE closed_from IS NOT NULL"),
+        [format!("{name}|{outside}")]
+    );
+    let none = site.adit("route", &["dock", "ward 12"]).expecting(1).stdout;
+    assert!(none.contains(&format!("is closed from {outside}")), "{none}");
+    site.adit("route", &["ward 12", "dock"]).expect_status(0);
+    let picture = site.path().join("one-way.svg");
+    site.adit("draw", &["-o", picture.to_str().unwrap()]).expect_status(0);
+    assert!(std::fs::read_to_string(&picture).unwrap().contains("open one way"));
+    let opened = site.adit("open", &[name]).expecting(0).stdout;
+    assert!(opened.contains("is open"), "{opened}");
+    site.adit("route", &["dock", "ward 12"]).expect_status(0);
+    for (arguments, said) in [
+        (&[name, "--from", "ward 11"][..], "does not lead out of `ward 11`"),
+        (&[name, "--from", "wrad 12"], "did you mean `ward 12`?"),
+        (&["ward 12", "--from", outside], "is no doorway between rooms"),
+        (&[name, "--from", outside, "--only", "robot"], "cannot be used with"),
+    ] {
+        site.adit("close", arguments).expecting(2).complains(&[said]);
+    }
+}
+
+#[test]
+fn one_goes_through_an_area_with_a_heading_in_that_direction() {
+    let site = TestSite::empty();
+    site.write(
+        "map.toml",
+        "width = 20.0\ndepth = 8.0\n[[obstacle]]\nrect = [4.0, 3.5, 16.0, 4.5]\n\
+         [[place]]\nname = \"west\"\nat = [1.0, 4.0]\n[[place]]\nname = \"east\"\nat = [19.0, 4.0]\n",
+    );
+    site.write("robots.toml", TWO_ROBOTS);
+    site.write("site.toml", "map = \"map.toml\"\nrobots = \"robots.toml\"\n");
+    let site = site.built();
+    let ys = |from: &str, to: &str| -> Vec<f64> {
+        let route = site.adit("route", &[from, to, "--robot", "cart", "--json"]).json();
+        let points =
+            route["waypoints"].as_array().unwrap_or_else(|| panic!("{from} to {to}: {route}")).clone();
+        let inside = points.iter().filter(|point| (4.0..16.0).contains(&point["x"].as_f64().unwrap()));
+        inside.map(|point| point["y"].as_f64().unwrap()).collect()
+    };
+    // two aisles: south eastwards, north westwards
+    site.adit("lay", &["area", "south", "4,0 16,3.5", "--with", "heading=0"]).expect_status(0);
+    site.adit("lay", &["area", "north", "4,4.5 16,8", "--with", "heading=180"]).expect_status(0);
+    assert!(ys("west", "east").iter().all(|y| *y < 4.0), "{:?}", ys("west", "east"));
+    assert!(ys("east", "west").iter().all(|y| *y > 4.0), "{:?}", ys("east", "west"));
+    // nobody turns round in the middle of an aisle: back over one metre is forward around the block
+    let metres = |from: &str, to: &str| {
+        site.adit("route", &[from, to, "--robot", "cart", "--json"]).json()["cost"].as_f64().unwrap()
+    };
+    assert!(metres("8,2", "12,2") < 4.1 && metres("12,2", "8,2") > 20.0);
+    let undone = site.adit("undo", &[]).expecting(0).stdout;
+    assert!(undone.contains("`north` is passed in any direction") || undone.contains("north"), "{undone}");
+    site.adit("lift", &["south"]).expect_status(0);
+    assert!(metres("12,2", "8,2") < 4.1);
+    site.adit("lay", &["area", "south", "4,0 16,3.5", "--with", "heading=north"])
+        .expecting(2)
+        .complains(&["heading"]);
+}
+
 #[test]
 fn on_the_clinic_no_route_passes_a_closed_doorway() {
     let left = close_on_random_routes(&TestSite::example("clinic").built(), (What::Doorway, 12, 1));
@@ -158,7 +318,7 @@ fn on_the_clinic_no_route_passes_what_a_robot_reported_to_be_blocked() {
 #[ignore = "takes minutes: 200 doorways and 200 robots that are blocked on each shipped floor"]
 fn on_every_floor_two_hundred_closings_hold() {
     for (number, name) in ["clinic", "depot", "hospital"].into_iter().enumerate() {
-        for what in [What::Doorway, What::DoorwayForOne, What::Ahead] {
+        for what in [What::Doorway, What::DoorwayForOne, What::OneWay, What::Ahead] {
             let site = TestSite::example(name).built();
             let left = close_on_random_routes(&site, (what, 200, 10 + number as u64));
             println!("{name}: 200 closed, {left} left a way");
