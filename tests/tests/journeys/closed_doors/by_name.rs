@@ -454,6 +454,27 @@ fn a_closed_area_is_not_entered() {
 }
 
 #[test]
+fn an_area_is_closed_to_one_robot_and_who_is_in_it_comes_out() {
+    let site = TestSite::empty();
+    site.write("map.toml", "width = 12.0\ndepth = 8.0\n[[place]]\nname = \"home\"\nat = [1.0, 4.0]\n");
+    site.write("robots.toml", TWO_ROBOTS);
+    let area = "[[area]]\nname = \"east\"\nrect = [6.5, 0.0, 12.0, 8.0]\n";
+    site.write("site.toml", &format!("map = \"map.toml\"\nrobots = \"robots.toml\"\n{area}"));
+    let site = site.built();
+    let said = site.adit("close", &["east", "--only", "cart"]).expecting(0).stdout;
+    assert!(
+        said.contains("the area `east` is closed to cart") && said.matches("`east`").count() == 1,
+        "{said}"
+    );
+    let none = site.adit("route", &["home", "11,2", "--robot", "cart"]).expecting(1).stdout;
+    assert!(none.contains("the area `east` is told to be closed to cart"), "{none}");
+    site.adit("route", &["home", "11,2", "--robot", "walker"]).expect_status(0);
+    site.adit("route", &["11,2", "home", "--robot", "cart"]).expect_status(0);
+    site.adit("open", &["east"]).expect_status(0);
+    site.adit("route", &["home", "11,2", "--robot", "cart"]).expect_status(0);
+}
+
+#[test]
 fn what_is_closed_stays_closed_when_the_map_changes() {
     let site = TestSite::example("starter")
         .with("site.toml", "map = \"map.toml\"\nrobots = \"robots.toml\"\n")
