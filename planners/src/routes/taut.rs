@@ -250,6 +250,11 @@ impl<'g> Search<'g> {
                 What::Node(index) => self.expand(index),
             }
         }
+        let graph = self.graph;
+        for (room, found) in graph.room_indices().zip(&mut self.outcome.rooms) {
+            let most = least_of(found) + slid_in(graph, room);
+            found.retain(|found| found.cost <= most);
+        }
         self.outcome.nodes = self.nodes;
         self.outcome
     }
@@ -421,7 +426,7 @@ impl<'g> Search<'g> {
     fn slid(&self, found: &Found) -> f64 {
         let is_straight = self.stop_of(found) == DoorIndex::end();
         let room = self.nodes[found.node as usize].room;
-        if is_straight { 0.0 } else { 0.5 * APART_M * self.graph.per_m(room) }
+        if is_straight { 0.0 } else { slid_in(self.graph, room) }
     }
 
     /// The last door at which a way that was found stops.
@@ -433,13 +438,12 @@ impl<'g> Search<'g> {
     /// the best when they are pulled tight.
     fn is_news(&self, room: RoomIndex, stop: DoorIndex, cost: f64) -> bool {
         let Some(known) = self.outcome.rooms.get(room.index()) else { return false };
-        let best = known.iter().map(|known| known.cost).fold(f64::INFINITY, f64::min);
+        let best = least_of(known);
         if stop == DoorIndex::end() || best.is_infinite() {
             return cost < best;
         }
-        let slid = 0.5 * APART_M * self.graph.per_m(room).max(0.0);
         let beaten = |known: &Found| known.cost <= cost && self.stop_of(known) == stop;
-        cost < best * (1.0 + SLACK) + slid
+        cost < best + slid_in(self.graph, room)
             && !known.iter().any(beaten)
             && (known.len() < MOST_INTO_ROOM || known.iter().any(|known| cost < known.cost))
     }
@@ -608,6 +612,16 @@ impl Outcome {
         }
         others.into_values().filter(|(lag, ..)| *lag <= saved).map(|(_, own, other)| (own, other)).collect()
     }
+}
+
+/// What it costs at least to come into a room, by some ways.
+fn least_of(known: &[Found]) -> f64 {
+    known.iter().map(|known| known.cost).fold(f64::INFINITY, f64::min)
+}
+
+/// What sliding a stop along may save a way that ends in a room: half of how far apart stops are looked at.
+fn slid_in(graph: &RouteGraph, room: RoomIndex) -> f64 {
+    0.5 * APART_M * graph.per_m(room).max(0.0)
 }
 
 /// The segment of the door by which a node came into its room.
