@@ -293,6 +293,8 @@ codes! {
     ServiceQuestion = "service/question", BAD_REQUEST;
     /// The request was refused before any route looked at it.
     ServiceRefused = "service/refused", BAD_REQUEST;
+    /// One caller asks for more at once than its share; try again in a moment.
+    ServiceShare = "service/share", TOO_MANY_REQUESTS;
     /// The body is no JSON, or no text.
     ServiceSyntax = "service/syntax", BAD_REQUEST;
     /// The body is longer than is accepted.
