@@ -137,6 +137,8 @@ codes! {
     /// The hours of a named door or area cannot be read: days like `mon-fri`, times like `08:00`.
     HoursUnreadable = "hours/unreadable", UNPROCESSABLE_ENTITY;
 
+    /// What is laid over a map has more corners than rooms can be cut along at each edit.
+    LaidCorners = "laid/corners", BAD_REQUEST;
     /// Something of this name was laid over the map already.
     LaidTaken = "laid/taken", CONFLICT;
     /// Nothing of this name was laid over the map.
