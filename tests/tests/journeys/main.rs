@@ -26,6 +26,7 @@ mod laid;
 mod lane_sites;
 mod large_site;
 mod lazy_route;
+mod limits;
 mod live;
 mod manual;
 mod masks;
