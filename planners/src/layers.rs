@@ -24,7 +24,7 @@ mod traced;
 mod transform;
 mod walls;
 
-use changes::changes;
+use changes::{changes, may_change};
 use footprint::FACINGS;
 use labels::Label;
 use layer::{Placed, Size};
@@ -43,6 +43,9 @@ pub use narrowest::{Narrowest, narrowest};
 pub use planner::RoomsByState;
 pub use record::{Crossing, Kind, Room, State};
 pub(crate) use transform::squared_gaps;
+
+/// Passages from state to state that a floor may have: some gigabyte.
+const PASSAGES: usize = 2_000_000;
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Layers {
@@ -113,6 +116,7 @@ pub fn cut_layers_anew(
         stack.push(Placed { state, facing, first, layer });
         first += rooms;
     }
+    check_passages(states, &stack)?;
     let mut crossings: Vec<Crossing> = stack.iter().flat_map(doors).collect();
     crossings.extend(changes(states, &stack));
     crossings.sort_unstable_by_key(|crossing| (crossing.room1, crossing.room2));
@@ -147,6 +151,28 @@ fn check(states: &[State]) -> Result<(), String> {
         }
     }
     if states.is_empty() { Err("no state moves, so there is no layer to cut".to_owned()) } else { Ok(()) }
+}
+
+/// Refuses what would take minutes and gigabytes, before it does: passages from state to state grow with the square of the
+/// states of one robot. There are about as many as rooms of the two layers of each pair.
+fn check_passages(states: &[State], stack: &[Placed]) -> Result<(), String> {
+    let rooms = |placed: &Placed| placed.layer.rooms.len();
+    let pairs =
+        (0..stack.len()).flat_map(|from| (from + 1..stack.len()).map(move |to| (&stack[from], &stack[to])));
+    let pairs = pairs.filter(|(from, to)| may_change(states, from, to));
+    let passages: usize = pairs.map(|(from, to)| rooms(from) + rooms(to)).sum();
+    if passages <= PASSAGES {
+        return Ok(());
+    }
+    Err(format!(
+        "the rooms of {} states ({} rooms in {} layers) have some {:.1} million passages from state to state, more than {} \
+         million; take fewer states, or several robots",
+        states.len(),
+        stack.iter().map(rooms).sum::<usize>(),
+        stack.len(),
+        passages as f64 / 1e6,
+        PASSAGES / 1_000_000
+    ))
 }
 
 fn rooms<'a>(world: &'a World, placed: &'a Placed) -> impl Iterator<Item = Room> + 'a {

@@ -2,6 +2,7 @@
 
 pub mod browser;
 pub mod floor;
+pub mod fuzz;
 pub mod lock;
 pub mod oracle;
 pub mod service;

@@ -27,6 +27,8 @@ mod late;
 mod roles;
 #[path = "serve/rules.rs"]
 mod rules;
+#[path = "serve/shares.rs"]
+mod shares;
 #[path = "serve/sql.rs"]
 mod sql;
 

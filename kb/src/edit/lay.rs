@@ -47,6 +47,30 @@ pub struct Lay {
     pub until: Option<String>,
 }
 
+/// The most corners of something that is laid over the map, and of all that lies there: rooms are cut along them at each such
+/// edit, while others wait.
+const CORNERS: usize = 1_000;
+const ALL_CORNERS: usize = 20_000;
+
+/// Refuses what would take long to cut.
+fn check_corners(corners: &[[f64; 2]], there: &[Row]) -> Result<()> {
+    // a corner of a row is `[x,y]`
+    let there: usize = there.iter().map(|row| row.outline.matches("],").count() + 1).sum();
+    let count = corners.len();
+    let message = if count > CORNERS {
+        format!("it has {count} corners; {CORNERS} are the most")
+    } else if there + count > ALL_CORNERS {
+        format!(
+            "with its {count} corners all that is laid over the map has {}; {ALL_CORNERS} are the most",
+            there + count
+        )
+    } else {
+        return Ok(());
+    };
+    let help = "draw it with fewer corners, or lift what no longer counts".to_owned();
+    Err(Error::said(Code::LaidCorners, message, Some(help)))
+}
+
 impl Lay {
     pub(super) fn apply(
         &self,
@@ -64,6 +88,7 @@ impl Lay {
             let help = format!("`adit lift SITE \"{name}\"` takes it away");
             return Err(Error::said(Code::LaidTaken, message, Some(help)));
         }
+        check_corners(&self.corners, &tx.laid()?)?;
         let row = Row {
             name: name.to_owned(),
             what: what.to_owned(),

@@ -137,6 +137,8 @@ codes! {
     /// The hours of a named door or area cannot be read: days like `mon-fri`, times like `08:00`.
     HoursUnreadable = "hours/unreadable", UNPROCESSABLE_ENTITY;
 
+    /// What is laid over a map has more corners than rooms can be cut along at each edit.
+    LaidCorners = "laid/corners", BAD_REQUEST;
     /// Something of this name was laid over the map already.
     LaidTaken = "laid/taken", CONFLICT;
     /// Nothing of this name was laid over the map.
@@ -293,6 +295,8 @@ codes! {
     ServiceQuestion = "service/question", BAD_REQUEST;
     /// The request was refused before any route looked at it.
     ServiceRefused = "service/refused", BAD_REQUEST;
+    /// One caller asks for more at once than its share; try again in a moment.
+    ServiceShare = "service/share", TOO_MANY_REQUESTS;
     /// The body is no JSON, or no text.
     ServiceSyntax = "service/syntax", BAD_REQUEST;
     /// The body is longer than is accepted.

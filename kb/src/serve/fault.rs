@@ -1,10 +1,12 @@
 //! What a request that fails is answered with: one shape of JSON, whatever went wrong.
 
 use axum::Json;
+use axum::http::{HeaderValue, header};
 use axum::response::{IntoResponse, Response};
 use serde::Serialize;
 use utoipa::ToSchema;
 
+use super::share::Spent;
 use crate::error::problem::Problem;
 use crate::error::{Code, Error};
 
@@ -62,6 +64,13 @@ impl Fault {
         Self::new(Code::ServiceBusy, message)
     }
 
+    /// One caller asks for more at once than its share.
+    pub fn share() -> Self {
+        let message =
+            "you ask for more at once than one caller may while others ask, too; try again in a moment";
+        Self::new(Code::ServiceShare, message)
+    }
+
     #[must_use]
     pub fn with_problems(mut self, problems: Vec<Problem>) -> Self {
         self.problems = problems;
@@ -88,6 +97,15 @@ impl From<Error> for Fault {
     }
 }
 
+impl From<Spent> for Fault {
+    fn from(spent: Spent) -> Self {
+        match spent {
+            Spent::Share => Self::share(),
+            Spent::All => Self::busy(),
+        }
+    }
+}
+
 impl From<adit_db::Error> for Fault {
     fn from(error: adit_db::Error) -> Self {
         Error::from(error).into()
@@ -96,6 +114,11 @@ impl From<adit_db::Error> for Fault {
 
 impl IntoResponse for Fault {
     fn into_response(self) -> Response {
-        (self.code.http(), Json(Failure { error: self })).into_response()
+        let code = self.code;
+        let mut response = (code.http(), Json(Failure { error: self })).into_response();
+        if matches!(code, Code::ServiceBusy | Code::ServiceShare) {
+            response.headers_mut().insert(header::RETRY_AFTER, HeaderValue::from_static("1"));
+        }
+        response
     }
 }

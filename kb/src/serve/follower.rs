@@ -14,6 +14,7 @@ use tokio::sync::watch;
 use super::event::{Changed, Event, Followed};
 use super::fault::{Answered, Fault};
 use super::question::Question;
+use super::share::Asker;
 use super::shared::{Shared, Subscription};
 use super::token;
 use crate::answer::Answer;
@@ -45,6 +46,7 @@ struct Known {
 /// A stream's side of it. Its name goes with it.
 pub struct Follower {
     shared: Arc<Shared>,
+    asker: Arc<Asker>,
     name: String,
     question: Arc<Question>,
     subscription: Subscription,
@@ -85,6 +87,7 @@ impl Follower {
     /// Whoever asks, at a place among the subscribers; with the first word.
     pub fn new(
         shared: &Arc<Shared>,
+        asker: Arc<Asker>,
         subscription: Subscription,
         question: Question,
         view: &View,
@@ -99,6 +102,7 @@ impl Follower {
         shared.followers.all().insert(name.clone(), known);
         let follower = Self {
             shared: Arc::clone(shared),
+            asker,
             name,
             question,
             subscription,
@@ -142,7 +146,7 @@ impl Follower {
             kept
         } else {
             let (held, question) = (Arc::clone(&self.held), Arc::clone(&self.question));
-            self.shared.renew(move || held.renewed(&question, &seen.view)).await.ok()?
+            self.shared.renew(&self.asker, move || held.renewed(&question, &seen.view)).await.ok()?
         };
         let now = Arc::new(now);
         let before = std::mem::replace(&mut self.held, Arc::clone(&now));

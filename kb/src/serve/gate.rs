@@ -1,11 +1,7 @@
 //! Who may come in: the host that was called, the page that calls, the token, and what it allows.
 
-use std::sync::Arc;
-
-use axum::extract::{Request, State};
+use axum::extract::Request;
 use axum::http::{HeaderMap, header};
-use axum::middleware::Next;
-use axum::response::Response;
 
 use super::fault::{Answered, Fault};
 use super::role::{Caller, Role};
@@ -16,23 +12,17 @@ use crate::error::Code;
 const WHO: &str = "x-adit-who";
 const NAME_LENGTH: usize = 100;
 
-/// Lets a request pass with its [`Caller`], or refuses it.
-pub async fn pass(
-    State(shared): State<Arc<Shared>>,
-    mut request: Request,
-    next: Next,
-) -> Result<Response, Fault> {
+/// Who asks, where the request may come in.
+pub fn look(shared: &Shared, request: &Request) -> Answered<Caller> {
     let headers = request.headers();
-    check_host(&shared, headers)?;
+    check_host(shared, headers)?;
     check_origin(headers)?;
     // the page itself holds nothing: it asks for a token once it is there
     let is_open = !request.uri().path().starts_with("/api/") && request.uri().path() != "/metrics";
-    let caller = match caller(&shared, headers) {
-        Err(_) if is_open => nobody(),
-        caller => caller?,
-    };
-    request.extensions_mut().insert(caller);
-    Ok(next.run(request).await)
+    match caller(shared, headers) {
+        Err(_) if is_open => Ok(nobody()),
+        caller => caller,
+    }
 }
 
 /// A page elsewhere whose name was made to point here (DNS rebinding) calls by that name.

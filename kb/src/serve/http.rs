@@ -9,6 +9,8 @@ mod facts;
 mod follow;
 mod history;
 mod map;
+pub mod pass;
+mod portions;
 mod queries;
 mod route;
 mod rules;
@@ -18,11 +20,10 @@ mod stream;
 mod tables;
 mod why;
 
-use std::pin::pin;
 use std::sync::Arc;
 
 use axum::body::Body;
-use axum::extract::{DefaultBodyLimit, State};
+use axum::extract::DefaultBodyLimit;
 use axum::http::{HeaderValue, Request, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use axum::routing::get;
@@ -38,8 +39,7 @@ use utoipa_axum::routes;
 
 use super::fault::{Failure, Fault};
 use super::shared::Shared;
-use super::waiting::Waiting;
-use super::{event, gate, meter, page};
+use super::{event, meter, page};
 use crate::error::Code;
 use extract::{BODY, too_large};
 
@@ -136,7 +136,7 @@ pub fn openapi() -> OpenApi {
     described().1
 }
 
-/// The routes with all that a request passes: limits, the gate, the shape of failures, the meter.
+/// The routes with all that a request passes: the meter, the shape of failures, its caller's share, the gate.
 pub fn router(shared: Arc<Shared>) -> Router {
     let (routes, _) = described();
     let header = |name, value: &'static str| {
@@ -150,10 +150,8 @@ pub fn router(shared: Arc<Shared>) -> Router {
         .layer(CompressionLayer::new())
         .layer(middleware::from_fn(shape))
         .layer(CatchPanicLayer::custom(|_| Fault::internal().into_response()))
-        .layer(middleware::from_fn_with_state(Arc::clone(&shared), limit))
-        .layer(middleware::from_fn_with_state(Arc::clone(&shared), in_time))
-        .layer(DefaultBodyLimit::max(BODY))
-        .layer(middleware::from_fn_with_state(Arc::clone(&shared), gate::pass));
+        .layer(middleware::from_fn_with_state(Arc::clone(&shared), pass::pass))
+        .layer(DefaultBodyLimit::max(BODY));
     Router::new()
         .route("/", get(page::index))
         .route("/assets/{name}", get(page::asset))
@@ -172,33 +170,6 @@ async fn unknown() -> Fault {
 async fn not_so() -> Fault {
     let message = "this address is not asked in this way";
     Fault::new(Code::ServiceMethod, message).helped("GET /api/openapi.json lists all")
-}
-
-/// Refuses what is more than can be worked on at once.
-async fn limit(
-    State(shared): State<Arc<Shared>>,
-    request: Request<Body>,
-    next: middleware::Next,
-) -> Result<Response, Fault> {
-    let Ok(_place) = shared.places.try_acquire() else { return Err(Fault::busy()) };
-    Ok(next.run(request).await)
-}
-
-/// Refuses what is not answered in time. An edit that the desk has begun is waited for: it will be made, and its caller must
-/// not hear otherwise.
-async fn in_time(
-    State(shared): State<Arc<Shared>>,
-    mut request: Request<Body>,
-    next: middleware::Next,
-) -> Result<Response, Fault> {
-    let waiting = Waiting::default();
-    request.extensions_mut().insert(waiting.clone());
-    let mut answer = pin!(next.run(request));
-    match tokio::time::timeout(shared.settings.patience, &mut answer).await {
-        Ok(answer) => Ok(answer),
-        Err(_) if waiting.give_up() => Err(Fault::late()),
-        Err(_) => Ok(answer.await),
-    }
 }
 
 /// Gives failures of the layers below, which say them in words, the one shape of failures.

@@ -6,7 +6,6 @@
 
 use std::collections::BTreeMap;
 use std::num::NonZero;
-use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{SyncSender, TrySendError};
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::thread;
@@ -15,13 +14,14 @@ use std::time::Duration;
 use adit_db::{Store, Tx};
 use arc_swap::ArcSwap;
 use parking::Readers;
-use tokio::sync::{Semaphore, broadcast, oneshot, watch};
+use tokio::sync::{broadcast, oneshot, watch};
 
 use super::desk::Desk;
 use super::event::{Event, Problems};
 use super::fault::{Answered, Fault};
 use super::follower::Followers;
 use super::settings::Settings;
+use super::share::{Asker, Held, Place, Places, Spent, Stock};
 use super::token::Tokens;
 use super::waiting::Waiting;
 use crate::error::Result;
@@ -44,19 +44,27 @@ pub struct Shared {
     pub events: broadcast::Sender<Arc<Event>>,
     /// Turns true when the service ends.
     pub ending: watch::Sender<bool>,
-    /// Places of requests that are worked on.
-    pub places: Semaphore,
-    /// Places of what takes long.
-    long: Arc<Semaphore>,
-    /// Places of questions in SQL.
-    queries: Arc<Semaphore>,
+    /// Requests that are worked on, or wait for that.
+    pub at_work: Arc<Stock>,
+    /// Connections, by address.
+    pub connections: Arc<Stock>,
+    /// Bytes of long answers that were not read yet.
+    pub unread: Arc<Stock>,
+    /// Places of requests that take the processor for milliseconds.
+    pub turns: Arc<Places>,
+    /// Places of long bodies that are read.
+    pub bodies: Arc<Places>,
+    /// Places of what takes long: previews, questions in SQL.
+    long: Arc<Places>,
+    /// The place at the desk: callers come there one after the other.
+    at_desk: Arc<Places>,
     /// Places of routes that are found anew for whoever follows them.
-    renewals: Arc<Semaphore>,
+    renewals: Arc<Places>,
     pub followers: Followers,
     jobs: SyncSender<Job>,
     shown: (Mutex<u64>, Condvar),
     readers: Readers,
-    subscribers: AtomicUsize,
+    subscribers: Arc<Stock>,
     problems: Mutex<BTreeMap<Source, Vec<Problem>>>,
 }
 
@@ -77,11 +85,21 @@ pub struct Seen {
     pub notes: Vec<String>,
 }
 
-/// Previews and the like that are worked on at once; more wait.
+/// Previews, questions in SQL and the like that one caller has worked on at once, and no more than there are cores. Each may
+/// take a core, and memory; more wait.
 const LONG: usize = 4;
 
-/// Questions in SQL that are worked on at once; more wait. Each may take a core, and memory.
-const QUERIES: usize = 4;
+/// Bodies beyond [`SHORT`] that are held at once, and those of one caller; more are not read yet.
+const BODIES: (usize, usize) = (64, 8);
+
+/// Bytes of a body, or of an answer, that are not worth counting.
+pub const SHORT: usize = 64 << 10;
+
+/// Bytes of long answers that wait for their readers, and those of one caller; more are told to come back.
+const UNREAD: (usize, usize) = (256 << 20, 64 << 20);
+
+/// Connections that are open at once, and those from one address.
+const CONNECTIONS: (usize, usize) = (4_096, 2_048);
 
 /// Events that a subscriber may lag behind before it is dropped.
 const BACKLOG: usize = 256;
@@ -89,6 +107,11 @@ const BACKLOG: usize = 256;
 impl Shared {
     /// Of a site that was just opened.
     pub fn new(settings: Settings, seen: Seen, tokens: Option<Tokens>, jobs: SyncSender<Job>) -> Self {
+        let cores = thread::available_parallelism().map_or(1, NonZero::get);
+        let places = |(all, each): (usize, usize)| Places::new(all, each);
+        let stock = |(all, each): (usize, usize)| Stock::new(all, each);
+        // a quarter is left for others, of few nothing
+        let most = |all: usize| (all, all - all / 4);
         Self {
             shown: (Mutex::new(seen.view.generation()), Condvar::new()),
             readers: Readers::new(seen.view.site().database()),
@@ -97,31 +120,47 @@ impl Shared {
             problems: Mutex::default(),
             events: broadcast::channel(BACKLOG).0,
             ending: watch::channel(false).0,
-            subscribers: AtomicUsize::new(0),
-            places: Semaphore::new(settings.requests),
-            long: Arc::new(Semaphore::new(LONG)),
-            queries: Arc::new(Semaphore::new(QUERIES)),
-            renewals: Arc::new(Semaphore::new(thread::available_parallelism().map_or(1, NonZero::get))),
+            subscribers: stock(most(settings.subscribers)),
+            at_work: stock(most(settings.requests)),
+            connections: stock(CONNECTIONS),
+            unread: stock(UNREAD),
+            // one more than there are cores: whoever comes while another takes them all begins at once
+            turns: places((cores + 1, cores)),
+            bodies: places(BODIES),
+            long: places((cores.min(LONG) + 1, cores.min(LONG))),
+            at_desk: places((1, 1)),
+            renewals: places((cores + 1, cores)),
             followers: Followers::default(),
             settings,
             jobs,
         }
     }
 
-    /// A copy of what is known after all edits that were asked for before, to try others on.
-    pub async fn fork(&self) -> Answered<State> {
-        self.edit_at_desk(&Waiting::default(), |desk| Ok(desk.live.fork())).await
+    /// Asks a copy of what is known after all edits that were asked for before, on which others may be tried. There are no more
+    /// copies than places.
+    pub async fn on_fork<T: Send + 'static>(
+        self: &Arc<Self>,
+        asker: &Arc<Asker>,
+        work: impl FnOnce(State) -> Result<T> + Send + 'static,
+    ) -> Answered<T> {
+        let place = self.long.take(asker).await;
+        let fork = self.edit_at_desk(asker, &Waiting::default(), |desk| Ok(desk.live.fork())).await?;
+        beside(place, move || work(fork)).await
     }
 
     /// Has something done where edits are done, after all that was asked before; not where nobody waits for it any more.
     pub async fn edit_at_desk<T: Send + 'static>(
         &self,
+        asker: &Arc<Asker>,
         waiting: &Waiting,
         work: impl FnOnce(&mut Desk) -> Answered<T> + Send + 'static,
     ) -> Answered<T> {
+        let place = self.at_desk.take(asker).await;
         let (answer, answered) = oneshot::channel();
         let waiting = waiting.clone();
         let job: Job = Box::new(move |desk| {
+            // whoever asked may have gone: the place is free when the work is done
+            let _place = place;
             if !answer.is_closed() && waiting.begin() {
                 answer.send(work(desk)).ok();
             }
@@ -142,24 +181,31 @@ impl Shared {
     /// Reads one state of the database, beside all that goes on.
     pub async fn read<T: Send + 'static>(
         self: &Arc<Self>,
+        place: Option<Arc<Place>>,
         work: impl FnOnce(&mut Tx<'_>) -> Result<T> + Send + 'static,
     ) -> Answered<T> {
         let shared = Arc::clone(self);
-        beside(move || shared.readers.with(|store| store.snapshot(work))).await
+        beside(place, move || shared.readers.with(|store| store.snapshot(work))).await
     }
 
     /// Answers a question of somebody's, with the whole store; few such questions are answered at once.
     pub async fn query<T: Send + 'static>(
         self: &Arc<Self>,
+        asker: &Arc<Asker>,
         work: impl FnOnce(&mut Store) -> Result<T> + Send + 'static,
     ) -> Answered<T> {
-        let shared = Arc::clone(self);
-        at_a_place(&self.queries, move || shared.readers.with(work)).await
+        let (shared, place) = (Arc::clone(self), self.long.take(asker).await);
+        beside(place, move || shared.readers.with(work)).await
     }
 
     /// Finds a route anew for whoever follows it; no more at once than there are cores, since an edit concerns all followers.
-    pub async fn renew<T: Send + 'static>(&self, work: impl FnOnce() -> T + Send + 'static) -> Answered<T> {
-        at_a_place(&self.renewals, || Ok(work())).await
+    pub async fn renew<T: Send + 'static>(
+        &self,
+        asker: &Arc<Asker>,
+        work: impl FnOnce() -> T + Send + 'static,
+    ) -> Answered<T> {
+        let place = self.renewals.take(asker).await;
+        beside(place, || Ok::<T, Fault>(work())).await
     }
 
     /// Closes all connections that read; requests must have ended.
@@ -183,10 +229,12 @@ impl Shared {
 
     /// Does something that takes a core for long, beside all that goes on; few such things are done at once.
     pub async fn at_length<T: Send + 'static>(
-        self: &Arc<Self>,
+        &self,
+        asker: &Arc<Asker>,
         work: impl FnOnce() -> Result<T> + Send + 'static,
     ) -> Answered<T> {
-        at_a_place(&self.long, work).await
+        let place = self.long.take(asker).await;
+        beside(place, work).await
     }
 
     /// What is wrong with files that were saved; the service goes on with those of before.
@@ -216,47 +264,31 @@ impl Shared {
         self.events.send(Arc::new(event)).ok();
     }
 
-    /// A place among the subscribers, until it is dropped; `None` where all are taken.
-    pub fn subscribe(self: &Arc<Self>) -> Option<Subscription> {
-        let taken = self.subscribers.fetch_add(1, Ordering::Relaxed);
-        let subscription = Subscription { shared: Arc::clone(self), events: self.events.subscribe() };
-        (taken < self.settings.subscribers).then_some(subscription)
+    /// A place among the subscribers, until it is dropped.
+    pub fn subscribe(&self, asker: &Arc<Asker>) -> std::result::Result<Subscription, Spent> {
+        let held = self.subscribers.hold(asker, 1)?;
+        Ok(Subscription { events: self.events.subscribe(), _held: held })
     }
 
     /// How many subscribers there are.
     pub fn subscribed(&self) -> usize {
-        self.subscribers.load(Ordering::Relaxed)
+        self.subscribers.held()
     }
 }
 
-/// Does something once there is a place for it.
-async fn at_a_place<T: Send + 'static>(
-    places: &Arc<Semaphore>,
-    work: impl FnOnce() -> Result<T> + Send + 'static,
+/// Does something that takes a thread for a while. Whoever asked may hang up: the place is free when the work is done.
+pub async fn beside<T: Send + 'static, E: Into<Fault> + Send + 'static>(
+    place: impl Send + 'static,
+    work: impl FnOnce() -> std::result::Result<T, E> + Send + 'static,
 ) -> Answered<T> {
-    let place = Arc::clone(places).acquire_owned().await.map_err(|_| Fault::internal())?;
     let placed = move || {
-        // whoever asked may have gone: the place is free when the work is done
         let _place = place;
         work()
     };
-    beside(placed).await
-}
-
-/// Does something that takes a thread for a while.
-pub async fn beside<T: Send + 'static, E: Into<Fault> + Send + 'static>(
-    work: impl FnOnce() -> std::result::Result<T, E> + Send + 'static,
-) -> Answered<T> {
-    tokio::task::spawn_blocking(work).await.map_err(|_| Fault::internal())?.map_err(Into::into)
+    tokio::task::spawn_blocking(placed).await.map_err(|_| Fault::internal())?.map_err(Into::into)
 }
 
 pub struct Subscription {
-    shared: Arc<Shared>,
     pub events: broadcast::Receiver<Arc<Event>>,
-}
-
-impl Drop for Subscription {
-    fn drop(&mut self) {
-        self.shared.subscribers.fetch_sub(1, Ordering::Relaxed);
-    }
+    _held: Held,
 }

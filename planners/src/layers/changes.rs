@@ -26,7 +26,7 @@ pub(super) fn changes(states: &[State], stack: &[Placed]) -> Vec<Crossing> {
 
 /// Whether a robot may come from one layer into the other by changing its shape, or by turning to the next facing. A
 /// disc faces nowhere, and so may become a body of any facing.
-fn may_change(states: &[State], a: &Placed, b: &Placed) -> bool {
+pub(super) fn may_change(states: &[State], a: &Placed, b: &Placed) -> bool {
     let same_robot = states[a.state].robot == states[b.state].robot;
     same_robot
         && match (a.facing, b.facing) {

@@ -63,6 +63,8 @@ codes! {
     Clipped = "map/clipped",
     /// A polygon with fewer than three distinct corners.
     FewCorners = "map/few-corners",
+    /// A polygon with more corners than can be checked in seconds.
+    TooManyCorners = "map/too-many-corners",
     /// A polygon whose outline crosses or touches itself.
     SelfCrossing = "map/self-crossing",
     /// A name without a character.

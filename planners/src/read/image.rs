@@ -3,6 +3,7 @@
 use std::cell::Cell;
 use std::fs::File;
 use std::io::{self, BufReader, ErrorKind, Read, Seek, SeekFrom};
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
 use image::codecs::png::PngDecoder;
@@ -54,17 +55,20 @@ pub(crate) fn read_image(source: &Text, file: &MapFile, folder: &Path) -> Result
     })?;
     let ended = Cell::new(false);
     let reader = BufReader::new(Watched { file: opened, ended: &ended });
-    let decoded = match &magic {
-        b"P2" | b"P5" => PnmDecoder::new(reader).map(|decoder| decode(decoder, &problem, &file.image)),
+    if !matches!(&magic, b"P2" | b"P5" | b"\x89P") {
+        let message = format!("`{}` is not an image that a map can be read from", file.image);
+        return Err(problem(Code::NotAnImage, message).with_help("PGM (P2, P5) and PNG are known").into());
+    }
+    let decoded = || match &magic {
         b"\x89P" => PngDecoder::with_limits(reader, Limits::default())
             .map(|decoder| decode(decoder, &problem, &file.image)),
-        _ => {
-            let message = format!("`{}` is not an image that a map can be read from", file.image);
-            return Err(problem(Code::NotAnImage, message)
-                .with_help("PGM (P2, P5) and PNG are known")
-                .into());
-        }
+        _ => PnmDecoder::new(reader).map(|decoder| decode(decoder, &problem, &file.image)),
     };
+    // a palette whose length is no multiple of three makes the decoder of PNG panic
+    let decoded = catch_unwind(AssertUnwindSafe(decoded)).map_err(|_| {
+        let message = format!("the image `{}` cannot be decoded: it is damaged", file.image);
+        problem(Code::NotAnImage, message).with_help("copy the file again")
+    })?;
     let image = decoded.map_err(Refused::Image).and_then(std::convert::identity);
     image.map_err(|refused| match refused {
         Refused::Map(problem) => problem.into(),

@@ -4,6 +4,7 @@
 mod adapt;
 mod ask;
 mod bad_input;
+mod budgets;
 mod built_once;
 mod by_state;
 mod cell_sites;
@@ -25,6 +26,7 @@ mod laid;
 mod lane_sites;
 mod large_site;
 mod lazy_route;
+mod limits;
 mod live;
 mod manual;
 mod masks;

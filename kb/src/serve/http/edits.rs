@@ -387,11 +387,11 @@ pub async fn preview(site: Site, Body(body): Body<PreviewBody>) -> Answered<Json
         return Err(Fault::new(Code::ServiceTooMany, format!("a preview holds up to {PREVIEWED} edits")));
     }
     let edits = body.edits.into_iter().map(Wish::edit).collect::<Answered<Vec<Edit>>>()?;
-    let mut fork = site.fork().await?.within(body.within)?;
-    if let Some(patience) = body.patience_ms {
-        fork = fork.with_patience(Duration::from_millis(patience.min(PATIENCE_MS)));
-    }
-    let preview = site.at_length(move || {
+    let preview = site.on_fork(move |fork| {
+        let mut fork = fork.within(body.within)?;
+        if let Some(patience) = body.patience_ms {
+            fork = fork.with_patience(Duration::from_millis(patience.min(PATIENCE_MS)));
+        }
         let route = body.start.as_deref().zip(body.goal.as_deref());
         let wanted = route.map(|(start, goal)| Wanted { start, goal, robot: body.robot.as_deref() });
         fork.preview(&edits, wanted)

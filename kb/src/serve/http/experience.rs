@@ -15,7 +15,6 @@ use crate::fit::{Added, Fit, Row, Scale, rows_of_csv};
 use crate::serve::fault::{Answered, Fault};
 use crate::serve::gate::require;
 use crate::serve::role::{Caller, Role};
-use crate::serve::shared::beside;
 use crate::why::firm::Firm;
 #[derive(Deserialize)]
 pub struct Way {
@@ -31,8 +30,7 @@ pub struct Way {
            ("robot" = Option<String>, Query, description = "Whose route")),
     responses((status = 200, body = Firm)))]
 pub async fn firm(site: Site, Asked(way): Asked<Way>) -> Answered<Json<Firm>> {
-    let fork = site.fork().await?;
-    site.at_length(move || fork.firm(&way.start, &way.goal, way.robot.as_deref())).await.map(Json)
+    site.on_fork(move |fork| fork.firm(&way.start, &way.goal, way.robot.as_deref())).await.map(Json)
 }
 
 #[derive(Serialize, ToSchema)]
@@ -122,7 +120,7 @@ pub struct Fitted {
     responses((status = 200, body = Fit)))]
 pub async fn fit(site: Site, Asked(asked): Asked<Fitted>) -> Answered<Json<Fit>> {
     let view = site.view.load().view.clone();
-    let fitted = beside(move || {
+    let fitted = site.beside(move || {
         let scale = match &asked.reference {
             Some(state) => Scale::Reference(state),
             None if asked.per_metre => Scale::Measure,

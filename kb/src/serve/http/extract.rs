@@ -4,6 +4,7 @@ use std::convert::Infallible;
 use std::ops::Deref;
 use std::sync::Arc;
 
+use adit_db::{Store, Tx};
 use axum::extract::rejection::JsonRejection;
 use axum::extract::{FromRequest, FromRequestParts, Json, Query, Request};
 use axum::http::StatusCode;
@@ -11,28 +12,77 @@ use axum::http::request::Parts;
 use serde::de::DeserializeOwned;
 
 use crate::error::Code;
+use crate::error::Result as Done;
 use crate::serve::desk::Desk;
 use crate::serve::fault::{Answered, Fault};
 use crate::serve::role::Caller;
-use crate::serve::shared::Shared;
+use crate::serve::share::{Asker, Turn};
+use crate::serve::shared::{Shared, beside};
 use crate::serve::waiting::Waiting;
+use crate::state::State;
 
 /// The longest body that is read, bytes.
 pub const BODY: usize = 2 << 20;
 
-/// What every handler is given: what all requests share, and whether this one is still waited for.
+/// What every handler is given: what all requests share, whether this one is still waited for, and its turn.
 pub struct Site {
     pub shared: Arc<Shared>,
     pub waiting: Waiting,
+    turn: Arc<Turn>,
 }
 
 impl Site {
+    /// Whose request this is.
+    pub fn asker(&self) -> &Arc<Asker> {
+        &self.turn.asker
+    }
+
     /// Has an edit made, if its turn comes while its caller waits.
     pub async fn edit_at_desk<T: Send + 'static>(
         &self,
         work: impl FnOnce(&mut Desk) -> Answered<T> + Send + 'static,
     ) -> Answered<T> {
-        self.shared.edit_at_desk(&self.waiting, work).await
+        self.turn.aside(self.shared.edit_at_desk(self.asker(), &self.waiting, work)).await
+    }
+
+    /// Does something that takes milliseconds, beside all that goes on.
+    pub async fn beside<T: Send + 'static, E: Into<Fault> + Send + 'static>(
+        &self,
+        work: impl FnOnce() -> Result<T, E> + Send + 'static,
+    ) -> Answered<T> {
+        beside(self.turn.place(), work).await
+    }
+
+    /// Reads one state of the database, beside all that goes on.
+    pub async fn read<T: Send + 'static>(
+        &self,
+        work: impl FnOnce(&mut Tx<'_>) -> Done<T> + Send + 'static,
+    ) -> Answered<T> {
+        self.shared.read(self.turn.place(), work).await
+    }
+
+    /// Answers a question of somebody's, with the whole store; few such questions are answered at once.
+    pub async fn query<T: Send + 'static>(
+        &self,
+        work: impl FnOnce(&mut Store) -> Done<T> + Send + 'static,
+    ) -> Answered<T> {
+        self.turn.aside(self.shared.query(self.asker(), work)).await
+    }
+
+    /// Does something that takes a core for long, beside all that goes on; few such things are done at once.
+    pub async fn at_length<T: Send + 'static>(
+        &self,
+        work: impl FnOnce() -> Done<T> + Send + 'static,
+    ) -> Answered<T> {
+        self.turn.aside(self.shared.at_length(self.asker(), work)).await
+    }
+
+    /// The same on a copy of what is known after all edits that were asked for before.
+    pub async fn on_fork<T: Send + 'static>(
+        &self,
+        work: impl FnOnce(State) -> Done<T> + Send + 'static,
+    ) -> Answered<T> {
+        self.turn.aside(self.shared.on_fork(self.asker(), work)).await
     }
 }
 
@@ -49,7 +99,9 @@ impl FromRequestParts<Arc<Shared>> for Site {
 
     async fn from_request_parts(parts: &mut Parts, shared: &Arc<Shared>) -> Result<Self, Infallible> {
         let waiting = parts.extensions.get().cloned().unwrap_or_default();
-        Ok(Self { shared: Arc::clone(shared), waiting })
+        let turn = parts.extensions.get().cloned();
+        let turn = turn.unwrap_or_else(|| Arc::new(Turn::new(&shared.turns, &Arc::new(Asker::unknown()))));
+        Ok(Self { shared: Arc::clone(shared), waiting, turn })
     }
 }
 

@@ -20,7 +20,6 @@ use crate::serve::fault::{Answered, Fault};
 use crate::serve::follower::Follower;
 use crate::serve::gate;
 use crate::serve::question::Question;
-use crate::serve::shared::beside;
 
 /// The route that `/api/route` answers, as an event `route`, and again whenever another one is the best, with what was done
 /// meanwhile and by whom. Nothing is sent where nothing about the route changed; whoever lags hears of the newest state.
@@ -42,15 +41,15 @@ pub async fn follow(
         let message = "a route that is followed has no `avoid`, `load`, `at` or states";
         return Err(Fault::new(Code::ServiceQuestion, message).helped("ask `/api/route` for one errand"));
     }
-    let subscription = site.subscribe().ok_or_else(Fault::busy)?;
+    let subscription = site.subscribe(site.asker())?;
     // subscribed before the state is read, so that no change falls between both
     let seen = site.view.load_full();
     let over = Over::of(&site);
     // and before the caller is looked at, so that no token is taken away between both
     gate::caller(&site, &headers)?;
-    let shared = Arc::clone(&site);
+    let (shared, asker) = (Arc::clone(&site), Arc::clone(site.asker()));
     let (follower, first) =
-        beside(move || Follower::new(&shared, subscription, question, &seen.view)).await?;
+        site.beside(move || Follower::new(&shared, asker, subscription, question, &seen.view)).await?;
     Ok(sent(stream::unfold((Some(first), follower, over), next)))
 }
 
@@ -87,7 +86,7 @@ pub async fn moved(
     Body(Moved { x, y }): Body<Moved>,
 ) -> Answered<Json<Answer>> {
     let shared = Arc::clone(&site);
-    let moved = beside(move || {
+    let moved = site.beside(move || {
         let seen = shared.view.load_full();
         shared.followers.moves(&follower, &seen.view, Point::new(x, y))
     });

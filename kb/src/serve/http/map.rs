@@ -9,7 +9,6 @@ use utoipa::ToSchema;
 use super::extract::{Asked, Site};
 use crate::graph::{Building, SiteGraph};
 use crate::serve::fault::Answered;
-use crate::serve::shared::beside;
 use adit_db::space::{Doorway, Space};
 use adit_planners::geometry::Convex;
 use adit_planners::world::{Shape, World};
@@ -199,7 +198,7 @@ pub struct Drawn {
 pub async fn picture(site: Site, Asked(asked): Asked<Drawn>) -> Answered<Response> {
     let seen = site.view.load_full();
     let ends = asked.start.zip(asked.goal);
-    let svg = beside(move || {
+    let svg = site.beside(move || {
         let ends = ends.as_ref().map(|(start, goal)| (start.as_str(), goal.as_str()));
         seen.view.picture(ends, asked.robot.as_deref())
     });

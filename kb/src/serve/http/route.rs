@@ -9,7 +9,6 @@ use super::extract::Site;
 use crate::answer::Answer;
 use crate::serve::fault::Answered;
 use crate::serve::question::{Question, checked};
-use crate::serve::shared::beside;
 
 /// The route of least hardness between two places, rooms or points `x,y`; of several goals to the one that costs least.
 ///
@@ -33,8 +32,7 @@ use crate::serve::shared::beside;
 pub async fn route(site: Site, RawQuery(query): RawQuery) -> Answered<Response> {
     let question = Question::read(query.as_deref().unwrap_or_default())?;
     if !question.errand.is_none() {
-        let fork = site.fork().await?;
-        let answer = site.at_length(move || question.answer_on_errand(fork)).await?;
+        let answer = site.on_fork(move |fork| question.answer_on_errand(fork)).await?;
         return checked(answer).map(|answer| Json(answer).into_response());
     }
     let seen = site.view.load_full();
@@ -45,5 +43,5 @@ pub async fn route(site: Site, RawQuery(query): RawQuery) -> Answered<Response> 
         return Ok(([(header::CONTENT_TYPE, "application/json")], text).into_response());
     }
     // over measured rooms it takes milliseconds, and so does the reason why there is no route
-    beside(move || question.answer(&seen.view)).await.map(|answer| Json(answer).into_response())
+    site.beside(move || question.answer(&seen.view)).await.map(|answer| Json(answer).into_response())
 }

@@ -19,7 +19,6 @@ use crate::serve::desk::{Cause, Desk};
 use crate::serve::fault::{Answered, Failure, Fault};
 use crate::serve::gate::require;
 use crate::serve::role::{Caller, Role};
-use crate::serve::shared::beside;
 use crate::serve::token::hex;
 use crate::site::base::Base;
 use crate::site::rules;
@@ -52,7 +51,7 @@ struct FileOf {
 #[utoipa::path(get, path = "/api/rules", tag = "rules", responses((status = 200, body = RulesAnswer)))]
 pub async fn list(site: Site) -> Answered<Json<RulesAnswer>> {
     let view = site.view.load().view.clone();
-    beside(move || read(&view)).await.map(Json)
+    site.beside(move || read(&view)).await.map(Json)
 }
 
 fn read(view: &View) -> Answered<RulesAnswer> {

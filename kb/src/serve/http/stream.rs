@@ -12,7 +12,7 @@ use tokio::sync::watch;
 
 use super::extract::Site;
 use crate::serve::event::{Event, Hello};
-use crate::serve::fault::{Answered, Fault};
+use crate::serve::fault::Answered;
 use crate::serve::gate;
 use crate::serve::shared::{Shared, Subscription};
 use crate::serve::token::Tokens;
@@ -28,7 +28,7 @@ pub async fn events(
     site: Site,
     headers: HeaderMap,
 ) -> Answered<Sse<impl Stream<Item = Result<sse::Event, Infallible>>>> {
-    let subscription = site.subscribe().ok_or_else(Fault::busy)?;
+    let subscription = site.subscribe(site.asker())?;
     // subscribed before the state is read, so that no change falls between both
     let view = site.view.load().view.clone();
     let hello = Hello { generation: view.generation(), layout: view.layout().to_owned() };

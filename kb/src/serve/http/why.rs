@@ -42,8 +42,7 @@ pub enum Reasons {
            ("robot" = Option<String>, Query, description = "Whose route")),
     responses((status = 200, body = Reasons)))]
 pub async fn why(site: Site, Asked(asked): Asked<What>) -> Answered<Json<Reasons>> {
-    let fork = site.fork().await?;
-    let answer = site.at_length(move || match (&asked.thing, &asked.start, &asked.goal) {
+    let answer = site.on_fork(move |fork| match (&asked.thing, &asked.start, &asked.goal) {
         (Some(what), None, None) => fork.why(what).map(Reasons::Thing),
         (None, Some(start), Some(goal)) => {
             fork.why_way((start, goal), asked.at.as_deref(), asked.robot.as_deref()).map(Reasons::Way)
@@ -90,8 +89,7 @@ pub async fn ask(site: Site, Body(body): Body<AskBody>) -> Answered<Json<ask::As
         Said { what, value }
     });
     let said: Vec<Said> = said.collect();
-    let fork = site.fork().await?;
-    site.at_length(move || fork.ask(&body.what, &said)).await.map(Json)
+    site.on_fork(move |fork| fork.ask(&body.what, &said)).await.map(Json)
 }
 
 #[derive(Deserialize)]
@@ -108,8 +106,7 @@ pub struct OtherWay {
            ("through" = String, Query, description = "A space, a doorway, an area, a named door, `room d`, `door 7`, a place, or a point `x,y`"), ("robot" = Option<String>, Query, description = "Whose route")),
     responses((status = 200, body = WhyNot)))]
 pub async fn why_not(site: Site, Asked(asked): Asked<OtherWay>) -> Answered<Json<WhyNot>> {
-    let fork = site.fork().await?;
     let answer = site
-        .at_length(move || fork.why_not(&asked.start, &asked.goal, &asked.through, asked.robot.as_deref()));
+        .on_fork(move |fork| fork.why_not(&asked.start, &asked.goal, &asked.through, asked.robot.as_deref()));
     answer.await.map(Json)
 }

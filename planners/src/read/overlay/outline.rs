@@ -13,6 +13,9 @@ use crate::world::Shape;
 /// What is smaller is a line that rounding made wide; square metres.
 const LEAST_AREA: f64 = 1e-9;
 
+/// The most corners of one polygon. Whether it crosses itself takes a time that grows with their square: a second for so many.
+const CORNERS: usize = 10_000;
+
 /// The outline of an item: either a `rect` or a `polygon`.
 pub(super) fn shape(item: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> Option<Shape> {
     match (item.get("rect"), item.get("polygon")) {
@@ -70,6 +73,11 @@ pub(crate) fn ring(
     if corners.len() < 3 {
         let message = format!("a polygon needs three different corners, this one has {}", corners.len());
         return Err(problem(Code::FewCorners, message));
+    }
+    if corners.len() > CORNERS {
+        let message = format!("this polygon has {} corners; {CORNERS} are the most", corners.len());
+        return Err(problem(Code::TooManyCorners, message)
+            .with_help("leave out corners that lie nearly on a line, or make it several polygons"));
     }
     let points: Vec<Point> = corners.iter().map(|corner| corner.value).collect();
     let outline = to_geo(&points);
