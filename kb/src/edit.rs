@@ -52,7 +52,7 @@ pub enum Edit {
     Close(Close),
     /// What is open again, by the name that people have for it.
     Open(String),
-    /// An area or an obstacle that lies over the map from now on.
+    /// An area, an obstacle or a place that lies over the map from now on.
     Lay(Lay),
     /// What no longer lies over the map, by name.
     Lift(String),

@@ -122,9 +122,13 @@ fn step(chance: &mut Chance) -> Step {
             Step::Edit(Edit::Close(Close { what, until, only, except, from }))
         }
         12 => {
-            let name = ["pallets", "spill"][chance.below(2)].to_owned();
+            let name = ["pallets", "spill", "charger"][chance.below(3)].to_owned();
             if chance.is(0.3) {
                 return Step::Edit(Edit::Lift(name));
+            }
+            if name == "charger" {
+                let corners = vec![[chance.metres(-0.5, 11.0), chance.metres(-0.5, 7.0)]];
+                return Step::Edit(Edit::Lay(Lay { what: Thing::Place, name, corners, ..Lay::default() }));
             }
             let is_area = name == "spill";
             let (x, y) = (chance.metres(-0.5, 11.0), chance.metres(-0.5, 7.0));

@@ -45,6 +45,29 @@ fn of_two_experts_the_later_one_is_told_and_nothing_is_lost() {
 }
 
 #[test]
+fn a_preview_of_a_place_compares_the_ways_to_it_and_of_an_end_that_goes_says_that_the_way_is_lost() {
+    let (_site, service) = served("paper");
+    let charger = json!({"kind": "lay", "what": "place", "name": "charger", "corners": [[1.0, 1.0]]});
+    let preview = |edit: &serde_json::Value, goal: &str| {
+        let body = json!({"edits": [edit], "start": "f", "goal": goal, "patience_ms": 10_000});
+        service.ask("POST", "/api/preview", Some(&body))
+    };
+    let (status, shown) = preview(&charger, "charger");
+    assert_eq!((status, &shown["before"]["status"]), (200, &json!("unknown_goal")), "{shown}");
+    assert!(shown["route"]["cost"].is_number(), "{shown}");
+    let routes = &shown["routes"];
+    assert_eq!(
+        (&routes["total"], &routes["changed"], &routes["found"]),
+        (&json!(2), &json!(2), &json!(2)),
+        "{routes}"
+    );
+    assert_eq!(service.ask("POST", "/api/edits", Some(&json!({"edit": charger}))).0, 200);
+    let (status, shown) = preview(&json!({"kind": "lift", "name": "charger"}), "charger");
+    assert_eq!((status, &shown["route"]["status"]), (200, &json!("unknown_goal")), "{shown}");
+    assert_eq!(shown["routes"]["changed"], 0, "that it goes is no change of other routes: {shown}");
+}
+
+#[test]
 fn what_is_refused_changes_nothing() {
     let site = TestSite::example("paper").built();
     let service = Service::start(&site);

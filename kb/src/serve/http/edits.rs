@@ -118,7 +118,7 @@ pub enum Wish {
     },
     /// What was closed is open again.
     Open { what: String },
-    /// An area or an obstacle that lies over the map from now on.
+    /// An area, an obstacle or a place that lies over the map from now on.
     Lay(LaidBody),
     /// What no longer lies over the map.
     Lift { name: String },
@@ -201,6 +201,7 @@ impl Wish {
                 let what = match what {
                     LaidThing::Area => Thing::Area,
                     LaidThing::Obstacle => Thing::Obstacle,
+                    LaidThing::Place => Thing::Place,
                 };
                 let until = until.or(for_seconds.map(|seconds| format!("{seconds} seconds")));
                 let properties = properties.into_iter().map(|(name, value)| (name, value.text())).collect();
@@ -220,14 +221,14 @@ impl Wish {
     }
 }
 
-/// An area or an obstacle that people lay over the map.
+/// An area, an obstacle or a place that people lay over the map.
 #[derive(Debug, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LaidBody {
     #[serde(default)]
     pub(super) what: LaidThing,
     pub(super) name: String,
-    /// `[x, y]` in metres, in the order in which they follow one another; two are those of a rectangle.
+    /// `[x, y]` in metres, in the order in which they follow one another; two are those of a rectangle, and one is a place.
     pub(super) corners: Vec<[f64; 2]>,
     /// What is said of an area; `kind` is what it is: `wet`, `keep-out`.
     #[serde(default)]
@@ -249,6 +250,8 @@ pub enum LaidThing {
     Area,
     /// Something that no robot comes through.
     Obstacle,
+    /// A named point, from and to which ways lead.
+    Place,
 }
 
 #[derive(Debug, Deserialize, ToSchema)]
