@@ -89,7 +89,17 @@ fn step(chance: &mut Chance) -> Step {
                 Edit::Add("robots".to_owned(), "ROLL".to_owned(), cells)
             }
             1 => Edit::Remove("robots".to_owned(), "ROLL".to_owned()),
-            _ => Edit::Undo(None),
+            _ if chance.is(0.5) => Edit::Undo(None),
+            _ => {
+                let set = |state: &str, value: String| {
+                    let [table, key, column] = texts(["robots", state, "hardness"]);
+                    Edit::Set(table, key, column, value)
+                };
+                Edit::Together(vec![
+                    set("STAND", number(chance, 0.0, 9.0)),
+                    set("SQUAT", number(chance, -1.0, 9.0)),
+                ])
+            }
         }),
         10 => match chance.below(3) {
             0 => Step::File("rules/extra.rhai", Some("// nothing yet".to_owned())),

@@ -20,8 +20,8 @@ use crate::serve::role::{Caller, Role};
 /// The longest that routes between places are compared.
 const PATIENCE_MS: u64 = 10_000;
 
-/// Edits that one preview may hold.
-const PREVIEWED: usize = 1_000;
+/// Edits that may be previewed or made together.
+const TOGETHER: usize = 1_000;
 
 /// A value as JSON has it: a number, a text, a truth value, or null for none.
 #[derive(Debug, Deserialize)]
@@ -148,6 +148,12 @@ pub enum Wish {
         #[serde(default)]
         edit: Option<i64>,
     },
+    /// Several edits in one transaction, which are taken back together.
+    Together {
+        /// In this order; at most 1,000.
+        #[schema(no_recursion)]
+        edits: Vec<Wish>,
+    },
 }
 
 impl Wish {
@@ -160,6 +166,7 @@ impl Wish {
             | Self::Lay(_)
             | Self::Lift { .. }
             | Self::Retract { .. } => Role::Tell,
+            Self::Together { edits } if edits.iter().all(|edit| edit.role() == Role::Tell) => Role::Tell,
             _ => Role::Tune,
         }
     }
@@ -217,8 +224,16 @@ impl Wish {
             }
             Self::Switch { tuning, on } => Edit::Switch(tuning, on),
             Self::Undo { edit } => Edit::Undo(edit),
+            Self::Together { edits } => Edit::Together(all(edits)?),
         })
     }
+}
+
+fn all(edits: Vec<Wish>) -> Answered<Vec<Edit>> {
+    if edits.len() > TOGETHER {
+        return Err(Fault::new(Code::ServiceTooMany, format!("up to {TOGETHER} edits go together")));
+    }
+    edits.into_iter().map(Wish::edit).collect()
 }
 
 /// An area, an obstacle or a place that people lay over the map.
@@ -386,10 +401,7 @@ pub struct PreviewBody {
 #[utoipa::path(post, path = "/api/preview", tag = "tables", request_body = PreviewBody,
     responses((status = 200, body = Preview)))]
 pub async fn preview(site: Site, Body(body): Body<PreviewBody>) -> Answered<Json<Preview>> {
-    if body.edits.len() > PREVIEWED {
-        return Err(Fault::new(Code::ServiceTooMany, format!("a preview holds up to {PREVIEWED} edits")));
-    }
-    let edits = body.edits.into_iter().map(Wish::edit).collect::<Answered<Vec<Edit>>>()?;
+    let edits = all(body.edits)?;
     let mut fork = site.fork().await?.within(body.within)?;
     if let Some(patience) = body.patience_ms {
         fork = fork.with_patience(Duration::from_millis(patience.min(PATIENCE_MS)));
