@@ -1,8 +1,8 @@
 /** Closing from the map: doorways, spaces, areas, named doors, rooms and doors, for a time, for all or for some robots. */
 
-import { call, post } from './api.js';
+import { post } from './api.js';
 import { card } from './answers.js';
-import { byId, debounced, el, fill, form } from './dom.js';
+import { debounced, el, fill, form } from './dom.js';
 import { model } from './model.js';
 import { said } from './notice.js';
 import { summary, thisRoute } from './preview.js';
@@ -65,37 +65,4 @@ export function close(edit, label) {
     }
   }
   (ends ? until : reason).focus();
-}
-
-/** The form that lays an area over the map, and the list of those that lie there. */
-export function layForm(load) {
-  const field = (label, id, attributes = {}) => el('label', {}, `${label} `, el('input', { id: `lay-${id}`, autocomplete: 'off', ...attributes }));
-  const told = el('div', { id: 'lay-said' });
-  const made = form({ class: 'fact-form' }, async () => {
-    const read = (id) => byId(`lay-${id}`).value.trim();
-    const [from, to] = ['from', 'to'].map((id) => read(id).split(',').map(Number));
-    const obstacle = byId('lay-what').value === 'obstacle';
-    const body = { name: read('name'), what: byId('lay-what').value, corners: [from, to], properties: obstacle || !read('kind') ? {} : { kind: read('kind') }, until: read('until') || undefined, why: read('why') || undefined };
-    try {
-      const answer = await post('/api/areas', body);
-      showSaved(`${body.name} lies over the map.${andRules([answer])}`, [answer.done.id]);
-      fill(told);
-      await refresh(answer.generation);
-      await load();
-    } catch (error) {
-      fill(told, said(error));
-    }
-  },
-  el('label', {}, 'What ', el('select', { id: 'lay-what' }, el('option', { value: 'area', text: 'an area' }), el('option', { value: 'obstacle', text: 'an obstacle' }))),
-  field('Name', 'name', { required: true }), field('Kind', 'kind', { placeholder: 'keep-out, wet…' }),
-  field('From corner', 'from', { required: true, placeholder: 'x,y in metres' }), field('To corner', 'to', { required: true, placeholder: 'x,y in metres' }),
-  field('Until', 'until', { placeholder: '18:00, 2h' }), field('Why', 'why', { placeholder: 'if you like' }), el('button', { type: 'submit', class: 'strong', text: 'Lay it' }));
-  return el('div', {}, made, told);
-}
-
-/** Takes away what lies over the map. */
-export async function lift(name) {
-  const answer = await call('DELETE', `/api/areas/${encodeURIComponent(name)}`);
-  showSaved(`${name} no longer lies over the map.`, answer.done ? [answer.done.id] : []);
-  await refresh(answer.generation);
 }

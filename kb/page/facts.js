@@ -3,9 +3,9 @@
 import { get, post } from './api.js';
 import { takeBack } from './answers.js';
 import { askCard } from './ask.js';
-import { layForm, lift } from './closing.js';
 import { button, byId, el, fill, form, grid } from './dom.js';
 import { moment, value } from './format.js';
+import { isGoing, readLaid, takeAway } from './laid.js';
 import { model } from './model.js';
 import { said } from './notice.js';
 import { refresh } from './refresh.js';
@@ -78,13 +78,25 @@ async function load() {
   }
   if (!byId('laid-list')) return;
   try {
-    const { laid } = await get('/api/areas');
-    const rows = laid.map((one) => [one.name, [one.what, one.properties?.kind].filter(Boolean).join(', '), one.until ? moment(one.until) : 'lifted', one.who ?? '', one.why ?? '',
-      model.may('tell') ? button('Lift', async () => { await lift(one.name); await load(); }, { 'aria-label': `Lift ${one.name}` }) : null]);
+    const laid = await readLaid();
+    const rows = laid.map((one) => [one.name, [one.what, one.kind].filter(Boolean).join(', '), one.until ? moment(one.until) : 'taken away', one.who ?? '', one.why ?? '', model.may('tell') ? goes(one) : null]);
     fill(byId('laid-list'), laid.length ? grid('What lies over the map', ['what', 'kind', 'until', 'who', 'why', ''], rows) : el('p', { class: 'hint', text: 'Nothing lies over the map now.' }));
   } catch (error) {
     fill(byId('laid-list'), said(error));
   }
+}
+
+// What it would change is seen beside the map, where it is saved.
+function goes(laid) {
+  const text = isGoing(laid) ? 'Keep' : 'Take away…';
+  return button(text, () => {
+    takeAway(laid);
+    location.hash = '#map';
+  }, { 'aria-label': `${text} ${laid.name}` });
+}
+
+function drawLink() {
+  return el('p', {}, el('a', { href: '#map', text: 'Draw on the map', on: { click: () => setTimeout(() => byId('draw').click()) } }), ' what else lies there: areas, obstacles, places.');
 }
 
 function show() {
@@ -92,7 +104,7 @@ function show() {
     fill(byId('facts'), el('div', { class: 'card' }, el('h2', { text: 'What is told now' }), el('div', { id: 'facts-list' })),
       model.may('tell') ? el('div', { class: 'card' }, el('h2', { text: 'Tell something' }), tellForm(), el('div', { id: 'fact-said' })) : null,
       askCard(),
-      model.site.rooms_mode === 'none' ? null : el('div', { class: 'card' }, el('h2', { text: 'What lies over the map' }), el('div', { id: 'laid-list' }), model.may('tell') ? layForm(load) : null));
+      model.site.rooms_mode === 'none' ? null : el('div', { class: 'card' }, el('h2', { text: 'What lies over the map' }), el('div', { id: 'laid-list' }), model.may('tell') ? drawLink() : null));
   }
   return load();
 }

@@ -7,11 +7,13 @@ import { startExperience } from './experience.js';
 import { startFacts } from './facts.js';
 import { startFirm } from './firm.js';
 import { moment } from './format.js';
+import { readLaid } from './laid.js';
 import { startHistory } from './history.js';
 import { startMap } from './map.js';
 import { model } from './model.js';
 import { banner, complain, where } from './notice.js';
 import { startOutline } from './outline.js';
+import { keepPending } from './pending.js';
 import { startPicture } from './picture.js';
 import { startPreview } from './preview.js';
 import { refresh } from './refresh.js';
@@ -79,9 +81,11 @@ async function begin() {
     start();
     model.set('site', site);
     model.set('tables', tables);
+    model.set('laid', await readLaid());
     model.set('map', map);
     model.set('weights', weights);
     model.set('generation', weights.generation);
+    keepPending();
     route();
   } catch (error) {
     complain(error);

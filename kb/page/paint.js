@@ -6,6 +6,7 @@ import { hatching } from './palette.js';
 import { polygon, trace } from './shapes.js';
 import { colour } from './theme.js';
 import { showsPieces } from './thing.js';
+import { paintPending } from './paint-pending.js';
 import { paintRoutes } from './paint-route.js';
 
 /** Colours and patterns of the present theme, made once until it changes. */
@@ -72,6 +73,7 @@ export function paint(context, camera, shown, still, ink, pointed, find) {
   screen();
   const labels = new Labels(context, ink);
   paintRoutes(context, camera, shown, ink, labels);
+  paintPending(context, camera, ink, labels);
   labelFloor(labels, camera, shown, find);
 }
 

@@ -1,8 +1,8 @@
-/** Cells that were edited and are not saved yet. */
+/** What was edited and is not saved yet: cells, rows, and what is drawn on the map. It is previewed and saved together. */
 
 import { model } from './model.js';
 
-/** How a cell is named among the pending ones. */
+/** How a cell is named among what is pending. */
 export const cellId = (table, key, column) => JSON.stringify([table, key, column]);
 
 const same = (a, b) => a === b || (a === null && b === '') || (a === '' && b === null);
@@ -17,6 +17,14 @@ export function editCell(cell) {
   model.set('pending', pending);
 }
 
+/**
+ * Takes up what is no cell, in place of what has this name.
+ * @param {Object} item `words` for people, `edits` for the service; `wrong` as long as it cannot be saved, `shape` where it is drawn
+ */
+export function put(id, item) {
+  model.set('pending', new Map(model.pending).set(id, item));
+}
+
 /** Takes edits back; all of them where none is named. */
 export function discard(id) {
   const pending = new Map(id ? model.pending : []);
@@ -24,14 +32,35 @@ export function discard(id) {
   model.set('pending', pending);
 }
 
-/** The pending cells as edits that the service understands. */
+/** The pending cells, each with its name. */
+export const cells = () => [...model.pending].filter(([, item]) => item.column !== undefined);
+
+const set = ({ table, key, column, old, value }, withOld) => ({ kind: 'set', table, key, column, value, ...(withOld ? { old } : {}) });
+
+/** What is pending as edits that the service understands. */
 export function edits(withOld) {
-  return [...model.pending.values()].filter((cell) => !cell.wrong).map(({ table, key, column, old, value }) => (
-    withOld ? { kind: 'set', table, key, column, value, old } : { kind: 'set', table, key, column, value }));
+  return [...model.pending.values()].filter((item) => !item.wrong).flatMap((item) => item.edits ?? [set(item, withOld)]);
 }
 
 /** A row's key without the robot where there is but one: `SQUAT`. */
 export function keyName(key) {
   const robots = model.site?.robots ?? [];
   return robots.length === 1 && key.startsWith(`${robots[0]}/`) ? key.slice(robots[0].length + 1) : key;
+}
+
+const KEPT = 'adit-pending';
+
+/** Keeps it over a reload of the page, for this site and this tab of the browser. */
+export function keepPending() {
+  try {
+    const { site, items } = JSON.parse(sessionStorage.getItem(KEPT) ?? '{}');
+    if (site === model.site.name && items?.length) model.set('pending', new Map(items));
+  } catch {
+    sessionStorage.removeItem(KEPT);
+  }
+  model.on('pending', () => {
+    const items = [...model.pending];
+    if (items.length) sessionStorage.setItem(KEPT, JSON.stringify({ site: model.site.name, items }));
+    else sessionStorage.removeItem(KEPT);
+  });
 }

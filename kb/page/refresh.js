@@ -2,6 +2,7 @@
 
 import { get } from './api.js';
 import { askRoute } from './ends.js';
+import { readLaid } from './laid.js';
 import { model } from './model.js';
 import { complain } from './notice.js';
 
@@ -35,7 +36,7 @@ export async function refresh(generation) {
 }
 
 async function load() {
-  const rest = Promise.all([get('/api/site'), get('/api/tables')]);
+  const rest = Promise.all([get('/api/site'), get('/api/tables'), readLaid()]);
   // A failure of the rest is heard below, when it is waited for; until then it is no stray one.
   rest.catch(() => {});
   const way = askRoute();
@@ -45,7 +46,8 @@ async function load() {
   if (!moved) model.set('weights', weights);
   const map = moved ? await get('/api/map') : null;
   if (moved && map.layout !== weights.layout) return load();
-  const [site, tables] = await rest;
+  const [site, tables, laid] = await rest;
+  model.set('laid', laid);
   model.set('site', site);
   model.set('tables', tables);
   if (moved) {

@@ -5,6 +5,8 @@
 mod accessible;
 #[path = "page/ask.rs"]
 mod ask;
+#[path = "page/draw.rs"]
+mod draw;
 #[path = "page/drawn.rs"]
 mod drawn;
 #[path = "page/experience.rs"]

@@ -87,15 +87,26 @@ async fn a_nurse_closes_a_doorway_and_lays_an_area_on_the_page() {
 
     browser.click("nav a[href='#facts']").await;
     browser.says("#laid-list", "Nothing lies over the map").await;
-    for (field, text) in
-        [("name", "wet floor"), ("kind", "wet"), ("from", "4,0.5"), ("to", "6,1.5"), ("until", "2h")]
+    browser.press("#facts", "Draw on the map").await;
+    for (field, text) in [("name", "wet floor"), ("kind", "wet"), ("corners", "4,0.5 6,1.5"), ("until", "2h")]
     {
-        browser.type_into(&format!("#lay-{field}"), text).await;
+        browser.type_into(&format!("#draw-{field}"), text).await;
     }
-    browser.press("#facts", "Lay it").await;
+    save(&browser, "an area “wet floor” (wet) until 2h").await;
+    browser.click("nav a[href='#facts']").await;
     browser.says("#laid-list", "wet floor").await;
-    browser.press("#laid-list", "Lift").await;
+    browser.press("#laid-list", "Take away").await;
+    save(&browser, "Taken away: the area “wet floor” (wet)").await;
+    browser.click("nav a[href='#facts']").await;
     browser.says("#laid-list", "Nothing lies over the map").await;
+}
+
+/// Saves what waits, once it says this and what it would change.
+async fn save(browser: &Browser, words: &str) {
+    browser.says("#preview", words).await;
+    browser.until("!document.getElementById('save').disabled", "it may be saved").await;
+    browser.click("#save").await;
+    browser.says("#saved", words).await;
 }
 
 #[tokio::test(flavor = "multi_thread")]

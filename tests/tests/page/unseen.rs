@@ -109,12 +109,14 @@ async fn save_waits_for_the_preview_of_what_is_typed() {
 #[tokio::test(flavor = "multi_thread")]
 async fn a_preview_out_of_sight_comes_into_sight_before_ctrl_enter_saves() {
     let (site, _service, browser) = at_a_desk("paper", "#map?start=f&goal=e").await;
-    browser.client.set_window_size(1_380, 600).await.unwrap();
+    browser.client.set_window_size(1_380, 380).await.unwrap();
     let cell = hardness_of("SQUAT");
     type_over(&browser, &cell, "3").await;
     until_it_may_be_saved(&browser).await;
-    let is_seen = "(({ top, bottom }) => top >= 0 && bottom <= innerHeight)(document.getElementById('preview-summary').getBoundingClientRect())";
-    browser.run("scrollTo({ top: 0, behavior: 'instant' })").await;
+    let is_seen = "(({ top }, card) => top >= card.top)(document.getElementById('preview-summary').getBoundingClientRect(), document.getElementById('preview-card').getBoundingClientRect())";
+    browser
+        .run("document.getElementById('preview-card').scrollTo({ top: 9_999, behavior: 'instant' })")
+        .await;
     assert_eq!(browser.value(is_seen).await, false);
     browser.ctrl_enter();
     browser.until(is_seen, "the preview is seen").await;
