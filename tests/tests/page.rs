@@ -19,6 +19,8 @@ mod keyboard;
 mod latency;
 #[path = "page/live.rs"]
 mod live;
+#[path = "page/rows.rs"]
+mod rows;
 #[path = "page/rules.rs"]
 mod rules;
 #[path = "page/shop.rs"]
