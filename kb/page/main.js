@@ -24,6 +24,7 @@ import { startSql } from './sql.js';
 import { follow } from './stream.js';
 import { startTables } from './table.js';
 import { startTheme } from './theme.js';
+import { readTunings, startTunings } from './tunings.js';
 
 function inForce() {
   const { site, weights } = model;
@@ -80,8 +81,10 @@ async function begin() {
     model.set('site', site);
     start();
     model.set('site', site);
+    const [laid, tunings] = await Promise.all([readLaid(), readTunings()]);
+    model.set('laid', laid);
+    model.set('tunings', tunings);
     model.set('tables', tables);
-    model.set('laid', await readLaid());
     model.set('map', map);
     model.set('weights', weights);
     model.set('generation', weights.generation);
@@ -100,6 +103,7 @@ function start() {
   startPicture();
   startEnds();
   startTables();
+  startTunings();
   startPreview();
   startRoute();
   startFirm();

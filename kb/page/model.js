@@ -9,6 +9,8 @@ class Model extends EventTarget {
   /** `/api/route`, or `{error}` */ route = null;
   /** `/api/preview` of what is pending */ preview = null;
   /** What is edited and not saved, by a name of its own; see `pending.js`. */ pending = new Map();
+  /** `/api/tunings` */ tunings = [];
+  /** The tuning in which cells are edited; none: in the tables. */ editIn = '';
   /** What people laid over the map, of `/api/areas` */ laid = [];
   /** The answer to "why not that way?" */ whyNot = null;
   /** `/api/firm` of the present route */ firm = null;

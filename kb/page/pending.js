@@ -3,13 +3,13 @@
 import { model } from './model.js';
 
 /** How a cell is named among what is pending. */
-export const cellId = (table, key, column) => JSON.stringify([table, key, column]);
+export const cellId = (table, key, column, tuning) => JSON.stringify(tuning ? [table, key, column, tuning] : [table, key, column]);
 
 const same = (a, b) => a === b || (a === null && b === '') || (a === '' && b === null);
 
-/** Edits one cell; back at its old value it is no edit. @param {Object} cell table, key, column, old, value, wrong */
+/** Edits one cell; back at its old value it is no edit. @param {Object} cell table, key, column, old, value, wrong; tuning, where it is of one */
 export function editCell(cell) {
-  const id = cellId(cell.table, cell.key, cell.column);
+  const id = cellId(cell.table, cell.key, cell.column, cell.tuning);
   const pending = new Map(model.pending);
   const old = pending.has(id) ? pending.get(id).old : cell.old;
   if (!cell.wrong && same(cell.value, old)) pending.delete(id);
@@ -35,7 +35,10 @@ export function discard(id) {
 /** The pending cells, each with its name. */
 export const cells = () => [...model.pending].filter(([, item]) => item.column !== undefined);
 
-const set = ({ table, key, column, old, value }, withOld) => ({ kind: 'set', table, key, column, value, ...(withOld ? { old } : {}) });
+function set({ table, key, column, old, value, tuning }, withOld) {
+  if (!tuning) return { kind: 'set', table, key, column, value, ...(withOld ? { old } : {}) };
+  return value === null ? { kind: 'unset_in_tuning', tuning, table, key, column } : { kind: 'set_in_tuning', tuning, table, key, column, value };
+}
 
 /** What is pending as edits that the service understands. */
 export function edits(withOld) {

@@ -9,6 +9,7 @@ import { said } from './notice.js';
 import { cells, discard, edits, keyName } from './pending.js';
 import { refresh } from './refresh.js';
 import { andRules, focusSaved, showSaved } from './saved.js';
+import { isOn } from './tunings.js';
 
 const WAIT = 120;
 const QUICK = 30;
@@ -52,7 +53,7 @@ const ask = debounced(async () => {
   return undefined;
 }, WAIT);
 
-const inOneWord = (item) => item.words ?? `${keyName(item.key)} ${item.column.replaceAll('_', ' ')} ${value(item.old)} → ${value(item.value)}`;
+const inOneWord = (item) => item.words ?? `${keyName(item.key)} ${item.column.replaceAll('_', ' ')} ${value(item.old)} → ${item.tuning && item.value === null ? 'as in the tables' : value(item.value)}${item.tuning ? ` in the tuning “${item.tuning}”${isOn(item.tuning) ? '' : ', which is off'}` : ''}`;
 const isWrong = (item) => `${item.words ?? `${keyName(item.key)} ${item.column}`}: ${item.wrong}`;
 
 /** The counts, in the expert's terms. */
@@ -199,7 +200,8 @@ function settle(id, current) {
 const isSame = (one, other) => JSON.stringify([one?.edits, one?.value]) === JSON.stringify([other.edits, other.value]);
 
 /** What the tables hold of a cell. */
-function present({ table, key, column }) {
+function present({ table, key, column, tuning }) {
+  if (tuning) return undefined;
   const of = model.table(table);
   return of?.rows[of.keys.indexOf(key)]?.[of.columns.findIndex(({ name }) => name === column)];
 }
@@ -223,7 +225,8 @@ async function saveAll(isKnown) {
     card.why.value = '';
     showSaved(`Saved: ${list([...sent.values()].map(inOneWord))}.${andRules([answer])}`, [answer.done.id]);
     if (hadFocus) focusSaved();
-    await refresh(answer.generation);
+    // A tuning that is off changes nothing but itself.
+    await refresh(answer.generation === model.weights?.generation ? undefined : answer.generation);
   } catch (error) {
     if (error.status === 409) await refresh();
     for (const [id, cell] of error.status === 409 ? cells() : []) {

@@ -5,6 +5,7 @@ import { askRoute } from './ends.js';
 import { readLaid } from './laid.js';
 import { model } from './model.js';
 import { complain } from './notice.js';
+import { readTunings } from './tunings.js';
 
 let running = null;
 let again = false;
@@ -36,7 +37,7 @@ export async function refresh(generation) {
 }
 
 async function load() {
-  const rest = Promise.all([get('/api/site'), get('/api/tables'), readLaid()]);
+  const rest = Promise.all([get('/api/site'), get('/api/tables'), readLaid(), readTunings()]);
   // A failure of the rest is heard below, when it is waited for; until then it is no stray one.
   rest.catch(() => {});
   const way = askRoute();
@@ -46,13 +47,14 @@ async function load() {
   if (!moved) model.set('weights', weights);
   const map = moved ? await get('/api/map') : null;
   if (moved && map.layout !== weights.layout) return load();
-  const [site, tables, laid] = await rest;
+  const [site, tables, laid, tunings] = await rest;
   model.set('laid', laid);
+  model.set('tunings', tunings);
   model.set('site', site);
   model.set('tables', tables);
   if (moved) {
+    model.set('preview', null);
     model.weights = null;
-    model.preview = null;
     model.set('map', map);
     model.set('weights', weights);
   }

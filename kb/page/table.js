@@ -6,6 +6,7 @@ import { exact, number, value as inWords } from './format.js';
 import { model } from './model.js';
 import { cellId, discard, editCell, keyName } from './pending.js';
 import { isGoing, newRow, newRows, rowForms } from './rows.js';
+import { inTuning } from './tunings.js';
 
 const MOST_ROWS = 200;
 
@@ -41,7 +42,7 @@ function build(table, open) {
   const rows = wanted.slice(0, MOST_ROWS).map(({ key, at }) => el('tr', { 'data-key': key }, ...columns.map((column) => {
     if (column.key) return el('th', { scope: 'row', text: String(table.rows[at][column.index]) });
     const cell = makeCell(table, key, column, table.rows[at][column.index]);
-    cells.set(cellId(table.table, key, column.name), { ...cell, at, column });
+    cells.set(cellId(table.table, key, column.name), { ...cell, at, key, column });
     return cell.td;
   }), ...concluded.map(({ property }) => {
     const td = el('td', { class: 'concluded' });
@@ -61,19 +62,24 @@ function makeCell(table, key, column, value) {
   const label = `${column.name} of ${keyName(key)}`;
   const struck = el('s', { class: 'old', hidden: true });
   const note = el('span', { class: 'note', role: 'status', hidden: true });
+  const force = el('span', { class: 'force', hidden: true });
   const input = field(column, label, value);
-  const cell = { td: el('td', { class: column.kind }, struck, input, note), input, struck, note, value };
+  const cell = { td: el('td', { class: column.kind }, struck, input, note, force), input, struck, note, force, value };
   const read = () => {
-    const typed = parse(input.value, column);
-    editCell({ table: table.table, key, column: column.name, old: views.get(table.table).cells.get(cellId(table.table, key, column.name)).value, ...typed });
+    // What a tuning no longer says is as the tables have it.
+    const typed = parse(input.value, model.editIn ? { ...column, required: false } : column);
+    editCell({ table: table.table, key, column: column.name, old: views.get(table.table).cells.get(cellId(table.table, key, column.name)).value, ...typed, ...(model.editIn ? { tuning: model.editIn } : {}) });
   };
   input.addEventListener('input', read);
   input.addEventListener('keydown', (event) => {
-    if (event.key === 'Escape') discard(cellId(table.table, key, column.name));
+    if (event.key === 'Escape') discard(waitsAs(table.table, key, column.name));
     if (event.key === 'Enter' && !event.ctrlKey && !event.metaKey && !event.isComposing) goDown(event);
   });
   return cell;
 }
+
+/** How an edit of a cell waits: in the tables, or in the tuning that is edited. */
+const waitsAs = (table, key, column) => cellId(table, key, column, model.editIn);
 
 /** Enter goes to the same column of the next row. Nothing is saved by it: that takes Ctrl-Enter, or Save. */
 function goDown(event) {
@@ -86,10 +92,13 @@ function goDown(event) {
 
 function update(table) {
   const view = views.get(table.table);
-  for (const [id, cell] of view.cells) {
-    const now = table.rows[cell.at][cell.column.index];
-    const pending = model.pending.get(id);
+  for (const cell of view.cells.values()) {
+    const { key, column } = cell;
+    const base = table.rows[cell.at][column.index];
+    const now = inTuning(table.table, key, column.name) ?? base;
+    const pending = model.pending.get(waitsAs(table.table, key, column.name));
     cell.value = now;
+    cell.td.classList.toggle('tuned-otherwise', now !== base);
     if (!pending && document.activeElement !== cell.input) cell.input.value = exact(now);
     if (pending && pending.old !== now) warn(cell, pending, now);
   }
@@ -101,8 +110,10 @@ function update(table) {
   const marks = new Map((table.overridden ?? []).map((mark) => [cellId(table.table, mark.key, mark.column), mark]));
   for (const [id, cell] of view.cells) {
     const mark = marks.get(id);
-    cell.td.title = mark ? `The tuning ${mark.tuning} says ${inWords(mark.value)} while it is on` : '';
+    const words = mark ? `${inWords(mark.value)} counts: ${mark.tuning} is on` : '';
     cell.td.classList.toggle('overridden', Boolean(mark));
+    cell.force.hidden = !mark || mark.tuning === model.editIn;
+    if (cell.force.textContent !== words) cell.force.textContent = words;
   }
 }
 
@@ -149,8 +160,8 @@ function markRows({ table, columns, rows, coming, shown }) {
 function marks() {
   for (const view of views.values()) {
     markRows(view);
-    for (const [id, cell] of view.cells) {
-      const pending = model.pending.get(id);
+    for (const cell of view.cells.values()) {
+      const pending = model.pending.get(waitsAs(view.table.table, cell.key, cell.column.name));
       cell.td.classList.toggle('edited', Boolean(pending));
       cell.struck.hidden = !pending;
       cell.struck.textContent = pending ? inWords(pending.old) : '';
@@ -171,6 +182,6 @@ function marks() {
 
 /** Shows the tables and keeps them up to date. */
 export function startTables() {
-  model.on('tables ask', () => { if (model.tables) tables(); });
+  model.on('tables tunings editIn ask', () => { if (model.tables) tables(); });
   model.on('pending', marks);
 }

@@ -29,6 +29,8 @@ mod shop;
 mod sql;
 #[path = "page/tune.rs"]
 mod tune;
+#[path = "page/tunings.rs"]
+mod tunings;
 #[path = "page/unseen.rs"]
 mod unseen;
 
