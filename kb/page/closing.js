@@ -2,28 +2,52 @@
 
 import { post } from './api.js';
 import { card } from './answers.js';
-import { debounced, el, fill, form } from './dom.js';
+import { el, fill, form } from './dom.js';
 import { model } from './model.js';
 import { said } from './notice.js';
-import { summary, thisRoute } from './preview.js';
 import { refresh } from './refresh.js';
 import { andRules, showSaved } from './saved.js';
+import { holds, middleOf } from './shapes.js';
 import { nounOf, showsPieces } from './thing.js';
+import { lookAhead } from './would.js';
 
-const WAIT = 150;
+/** As far as a door may be from the point at which it was told, metres. */
+const NEAR_M = 0.5;
+
+const pointOf = ({ object }) => object.split(',').map(Number);
+
+/** The fact by which something is closed, where one of this class is about what this finds. */
+function closedBy(classes, property, isIt) {
+  return model.facts.find((fact) => classes.includes(fact.class) && fact.property === property && fact.value === (property === 'closed') && fact.standing === 'holds' && isIt(fact));
+}
+
+const isNamed = (name) => Boolean(closedBy(['NAMED_DOORS', 'AREAS'], 'closed', ({ object }) => object === name));
+
+function doorFact(door) {
+  const [x, y] = middleOf(door.segment);
+  return closedBy(['DOORS'], 'passable', (fact) => {
+    const [fx, fy] = pointOf(fact);
+    return Math.hypot(fx - x, fy - y) <= NEAR_M;
+  });
+}
+
+const roomFact = (room) => closedBy(['ROOMS'], 'passable', (fact) => fact.object === room.name || holds(room, pointOf(fact)));
 
 /** What may be closed or opened at a thing of the map, each with its edit. */
 export function closings(thing) {
   const { weights, map } = model;
   const way = (name, closed) => ({ text: closed ? `Open ${name} again` : `Close ${name}…`, edit: { kind: closed ? 'open' : 'close', what: name } });
-  const tell = (text, fact) => ({ text, edit: { kind: 'tell', ...fact } });
+  const tell = (text, what, name, object, told) => (told
+    ? { text: `Open ${what} again`, edit: { kind: 'retract', fact: told.id } }
+    : { text: `${text} ${what}…`, edit: { kind: 'tell', class: name, object, property: 'passable', value: false } });
   const ways = [];
   if (thing.kind === 'doorway') ways.push(way(nounOf(thing), weights.doorways.closed[thing.index]));
-  else if (thing.named) ways.push(way(thing.named.name, false));
+  else if (thing.named) ways.push(way(thing.named.name, isNamed(thing.named.name)));
   if (thing.kind === 'room' && nounOf(thing)) ways.push(way(nounOf(thing), weights.spaces.closed[thing.space]));
-  for (const area of thing.areas ?? []) if (area.name !== nounOf(thing)) ways.push(way(area.name, false));
-  if (thing.kind === 'door') ways.push(tell(`Close door ${map.doors[thing.index].door}…`, { class: 'DOORS', object: String(map.doors[thing.index].door), property: 'passable', value: false }));
-  if (thing.kind === 'room' && showsPieces()) ways.push(tell(`Keep out of room ${map.rooms[thing.index].name}…`, { class: 'ROOMS', object: map.rooms[thing.index].name, property: 'passable', value: false }));
+  for (const area of thing.areas ?? []) if (area.name !== nounOf(thing)) ways.push(way(area.name, isNamed(area.name)));
+  const [door, room] = [map.doors[thing.index], map.rooms[thing.index]];
+  if (thing.kind === 'door') ways.push(tell('Close', `door ${door.door}`, 'DOORS', String(door.door), doorFact(door)));
+  if (thing.kind === 'room' && showsPieces()) ways.push(tell('Keep out of', `room ${room.name}`, 'ROOMS', room.name, roomFact(room)));
   return ways;
 }
 
@@ -34,35 +58,28 @@ export function close(edit, label) {
   const reason = el('input', { id: 'close-why', placeholder: 'if you like' });
   const { robots } = model.site;
   const only = el('select', { id: 'close-only' }, el('option', { value: '', text: 'everybody' }), ...robots.map((robot) => el('option', { value: robot, text: robot })));
-  const would = el('div', { id: 'close-preview', role: 'status' });
-  const ends = edit.kind !== 'open';
+  const ends = edit.kind === 'close' || edit.kind === 'tell';
   const forSome = edit.kind === 'close' && robots.length > 1;
+  const wish = () => ({ ...edit, ...(ends && until.value.trim() ? { until: until.value.trim() } : {}), ...(forSome && only.value ? { only: [only.value] } : {}) });
+  const would = lookAhead('close-preview', wish);
   const asked = form({ class: 'line-form' }, make,
     ends ? el('label', {}, 'Until (empty: until it is opened) ', until) : null,
     forSome ? el('label', {}, 'For ', only) : null,
     el('label', {}, 'Why ', reason), el('button', { type: 'submit', class: 'strong', text: title }));
-  const made = card('tell-card', title, would, asked);
-  const wish = () => ({ ...edit, ...(ends && until.value.trim() ? { until: until.value.trim() } : {}), ...(forSome && only.value ? { only: [only.value] } : {}) });
-  const preview = debounced(async () => {
-    const { start, goal, robot } = model.ask;
-    try {
-      const answer = await post('/api/preview', { edits: [wish()], ...(start && goal ? { start, goal } : {}), ...(robot ? { robot } : {}) });
-      fill(would, ...(answer.closings ?? []).map((text) => el('p', { text: `Then: ${text}.` })), el('p', { text: summary(answer).join(' ') }), thisRoute(answer));
-    } catch (error) {
-      fill(would, said(error));
-    }
-  }, WAIT);
-  for (const field of [until, only]) field.addEventListener('input', preview);
-  preview();
+  const made = card('tell-card', title, would.node, asked);
+  for (const field of [until, only]) field.addEventListener('input', would.look);
+  would.now();
   async function make() {
+    if (!would.isSeen()) return would.now();
     try {
       const answer = await post('/api/edits', { edit: wish(), why: reason.value.trim() || undefined });
       made.remove();
       showSaved(`${title}: done.${andRules([answer])}`, [answer.done.id]);
       await refresh(answer.generation);
     } catch (error) {
-      fill(would, said(error));
+      fill(would.node, said(error));
     }
+    return undefined;
   }
   (ends ? until : reason).focus();
 }

@@ -29,7 +29,10 @@ export class Labels {
     context.font = font;
     const width = context.measureText(text).width;
     for (const [x, y, align] of spots) {
-      const left = align === 'left' ? x : align === 'right' ? x - width : x - width / 2;
+      const wished = align === 'left' ? x : align === 'right' ? x - width : x - width / 2;
+      // Of what is in sight the word is, too.
+      const most = context.canvas.clientWidth - width - 3;
+      const left = x < 0 || x > context.canvas.clientWidth ? wished : Math.max(3, Math.min(wished, most));
       const box = [left - 1, y - 8, left + width + 1, y + 8];
       if (this.taken.some((other) => box[0] < other[2] && other[0] < box[2] && box[1] < other[3] && other[1] < box[3])) continue;
       this.taken.push(box);
@@ -97,7 +100,7 @@ function places(labels, camera) {
     context.beginPath();
     context.arc(at[0], at[1], 3, 0, 7);
     context.fill();
-    labels.put(place.place, around(at, 7), BOLD);
+    if (place.place !== model.route?.start && place.place !== model.route?.goal) labels.put(place.place, around(at, 7), BOLD);
   }
 }
 

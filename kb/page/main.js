@@ -81,7 +81,8 @@ async function begin() {
     model.set('site', site);
     start();
     model.set('site', site);
-    const [laid, tunings] = await Promise.all([readLaid(), readTunings()]);
+    const [laid, tunings, { facts }] = await Promise.all([readLaid(), readTunings(), get('/api/facts')]);
+    model.set('facts', facts);
     model.set('laid', laid);
     model.set('tunings', tunings);
     model.set('tables', tables);

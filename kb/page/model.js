@@ -11,6 +11,7 @@ class Model extends EventTarget {
   /** What is edited and not saved, by a name of its own; see `pending.js`. */ pending = new Map();
   /** `/api/tunings` */ tunings = [];
   /** The tuning in which cells are edited; none: in the tables. */ editIn = '';
+  /** Facts that are told, of `/api/facts` */ facts = [];
   /** What people laid over the map, of `/api/areas` */ laid = [];
   /** The answer to "why not that way?" */ whyNot = null;
   /** `/api/firm` of the present route */ firm = null;

@@ -37,7 +37,7 @@ export async function refresh(generation) {
 }
 
 async function load() {
-  const rest = Promise.all([get('/api/site'), get('/api/tables'), readLaid(), readTunings()]);
+  const rest = Promise.all([get('/api/site'), get('/api/tables'), readLaid(), readTunings(), get('/api/facts')]);
   // A failure of the rest is heard below, when it is waited for; until then it is no stray one.
   rest.catch(() => {});
   const way = askRoute();
@@ -47,7 +47,8 @@ async function load() {
   if (!moved) model.set('weights', weights);
   const map = moved ? await get('/api/map') : null;
   if (moved && map.layout !== weights.layout) return load();
-  const [site, tables, laid, tunings] = await rest;
+  const [site, tables, laid, tunings, { facts }] = await rest;
+  model.set('facts', facts);
   model.set('laid', laid);
   model.set('tunings', tunings);
   model.set('site', site);

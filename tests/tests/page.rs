@@ -13,6 +13,8 @@ mod drawn;
 mod experience;
 #[path = "page/find_out.rs"]
 mod find_out;
+#[path = "page/history.rs"]
+mod history;
 #[path = "page/keyboard.rs"]
 mod keyboard;
 #[path = "page/latency.rs"]

@@ -170,3 +170,30 @@ async fn a_phone_draws_with_a_finger_and_says_how_large_things_are() {
 async fn phone(service: &Service) -> Browser {
     Browser::open(&service.page(WAY), Screen::Phone).await
 }
+
+#[tokio::test(flavor = "multi_thread")]
+async fn what_lies_over_the_map_is_listed_among_the_facts_and_taken_away_from_there() {
+    let (_site, _service, browser) = starter().await;
+    browser.click("nav a[href='#facts']").await;
+    browser.says("#laid-list", "Nothing lies over the map").await;
+    browser.press("#facts", "Draw on the map").await;
+    for (field, text) in [("name", "wet floor"), ("kind", "wet"), ("corners", "4,0.5 6,1.5"), ("until", "2h")]
+    {
+        browser.type_into(&format!("#draw-{field}"), text).await;
+    }
+    save(&browser, "an area “wet floor” (wet) until 2h").await;
+    browser.click("nav a[href='#facts']").await;
+    browser.says("#laid-list", "wet floor").await;
+    browser.press("#laid-list", "Take away").await;
+    save(&browser, "Taken away: the area “wet floor” (wet)").await;
+    browser.click("nav a[href='#facts']").await;
+    browser.says("#laid-list", "Nothing lies over the map").await;
+}
+
+/// Saves what waits, once it says this and what it would change.
+async fn save(browser: &Browser, words: &str) {
+    browser.says("#preview", words).await;
+    until_it_may_be_saved(browser).await;
+    browser.click("#save").await;
+    browser.says("#saved", words).await;
+}
