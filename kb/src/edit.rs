@@ -88,7 +88,7 @@ pub struct Done {
 
 impl Done {
     fn of(done: Edited, with: usize) -> Self {
-        let Edited { id, key, old, new, .. } = done;
+        let Edited { id, key, old, new } = done;
         Self { id, key, old, new, with, parts: Vec::new() }
     }
 }
