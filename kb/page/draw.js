@@ -176,23 +176,34 @@ function forget() {
   if (id) discard(id);
 }
 
-/** Takes up again what lies over the map already, to be moved or changed. */
-export function redraw(laid) {
+// Puts what is laid, or waits to be, into a form of its own.
+function takeUp({ what, name, kind, until, corners: outline, properties }, more) {
   if (tool) stopDrawing();
   begin();
   const { fields: of } = tool;
-  of.what.value = laid.what;
-  const rectangle = rectangleOf(laid.corners);
+  const rectangle = what === 'place' ? null : outline.length === 2 ? outline : rectangleOf(outline);
+  of.what.value = what;
   of.shape.value = rectangle ? 'rectangle' : 'polygon';
-  of.name.value = laid.name;
-  of.kind.value = laid.kind ?? '';
-  of.until.value = laid.until ?? '';
-  const { kind, ...rest } = laid.properties ?? {};
-  Object.assign(tool, { replaced: laid.name, id: `laid:${laid.name}`, properties: rest });
-  of.corners.value = (rectangle ?? laid.corners).map((corner) => corner.join(',')).join(' ');
+  of.name.value = name;
+  of.kind.value = kind ?? '';
+  of.until.value = until ?? '';
+  Object.assign(tool, { properties, ...more });
+  of.corners.value = (rectangle ?? outline).map((corner) => corner.join(',')).join(' ');
   tool.read();
   tool.beside();
   of.name.focus({ preventScroll: true });
+}
+
+/** Takes up what lies over the map already, to be moved or changed. */
+export function redraw(laid) {
+  takeUp(laid, { replaced: laid.name, id: `laid:${laid.name}` });
+}
+
+/** Takes up again what was drawn and waits. */
+export function reopen(id, { edits }) {
+  const lay = edits.at(-1);
+  const { kind, ...properties } = lay.properties;
+  takeUp({ ...lay, kind, properties }, { id, replaced: edits.length > 1 ? edits[0].name : undefined });
 }
 
 /** Makes the button work. */

@@ -8,7 +8,7 @@ import { Drawn, EASIEST, layerName, ofRobot, roomsWeigh } from './layers.js';
 import { laidAt } from './laid.js';
 import { showPoint, showScale } from './measure.js';
 import { model } from './model.js';
-import { inks, paint } from './paint.js';
+import { inks, paint, paintOver } from './paint.js';
 import { Finder } from './places.js';
 import { closePopover, openPopover } from './popover.js';
 import { centreOf, middleOf, polygon } from './shapes.js';
@@ -17,6 +17,7 @@ import { onTheme } from './theme.js';
 
 const canvas = byId('canvas');
 const context = canvas.getContext('2d');
+const over = byId('over').getContext('2d');
 const camera = new Camera(canvas, () => { closePopover(); pointAtMiddle(); invalidate(); });
 let finder = null;
 let shown = null;
@@ -24,22 +25,32 @@ let still = null;
 let ink = null;
 let pointed = null;
 let waiting = false;
+let isFloorDue = false;
 let layout = null;
 
-/** Draws the map again at the next frame. */
-export function invalidate() {
+/** Draws the layer over the floor again at the next frame: what is pointed at, and what waits. */
+function invalidateOver() {
   if (waiting) return;
   waiting = true;
   requestAnimationFrame(() => {
     waiting = false;
     if (!shown || canvas.clientWidth === 0) return;
-    paint(context, camera, shown, still, ink, pointed, (at) => finder.roomsAt(at));
+    paintOver(over, camera, ink, pointed);
+    if (!isFloorDue) return;
+    isFloorDue = false;
+    paint(context, camera, shown, still, ink, (at) => finder.roomsAt(at));
     showScale(camera);
     // Whoever measures how soon an edit is seen reads it here.
     canvas.dataset.generation = model.weights.generation;
     canvas.dataset.changed = String(shown.changedRooms.size + shown.changedDoors.size);
     canvas.dataset.view = [camera.scale, ...camera.shift].join(' ');
   });
+}
+
+/** Draws the map again at the next frame. */
+export function invalidate() {
+  isFloorDue = true;
+  invalidateOver();
 }
 
 /** Everything that follows from weights, preview or layer. */
@@ -136,7 +147,7 @@ function hover(point) {
   }
   const thing = point && finder && shown ? thingAt(point) : null;
   const tip = byId('tip');
-  if (pointed?.index !== thing?.index || pointed?.kind !== thing?.kind) invalidate();
+  if (pointed?.index !== thing?.index || pointed?.kind !== thing?.kind) invalidateOver();
   pointed = thing?.kind === 'wall' ? null : thing;
   tip.hidden = !pointed || !byId('popover').hidden;
   if (tip.hidden) return;
@@ -162,8 +173,10 @@ function resize() {
   const { clientWidth: width, clientHeight: height } = canvas;
   if (!width) return;
   if (canvas.width !== Math.round(width * dense) || canvas.height !== Math.round(height * dense)) {
-    canvas.width = Math.round(width * dense);
-    canvas.height = Math.round(height * dense);
+    for (const layer of [canvas, over.canvas]) {
+      layer.width = Math.round(width * dense);
+      layer.height = Math.round(height * dense);
+    }
     if (model.map && (first || camera.scale === 1)) fit();
     invalidate();
   }
@@ -218,7 +231,7 @@ export function startMap(lead) {
     if (!model.ask.goal) return lead('goal', thing);
     return openPopover(thing, at);
   }, hover);
-  startDraw(camera, invalidate);
+  startDraw(camera, invalidateOver);
   canvas.addEventListener('focus', pointAtMiddle);
   byId('zoom-in').addEventListener('click', () => camera.zoom(1.4));
   byId('zoom-out').addEventListener('click', () => camera.zoom(1 / 1.4));
@@ -234,7 +247,8 @@ export function startMap(lead) {
     layerChoice();
     redraw();
   });
-  model.on('route whyNot pending', invalidate);
+  model.on('route whyNot', invalidate);
+  model.on('pending', invalidateOver);
   onTheme(() => {
     ink = null;
     redraw();

@@ -2,6 +2,7 @@
 
 import { post } from './api.js';
 import { button, byId, debounced, el, fill, keep } from './dom.js';
+import { reopen } from './draw.js';
 import { cost, count, list, number, value } from './format.js';
 import { askFirm, firmWithin } from './firm.js';
 import { model } from './model.js';
@@ -143,13 +144,17 @@ function told() {
   return [...model.pending.values()].every((item) => item.wrong) ? [] : [el('p', { class: 'hint', text: 'Looking what would change…' })];
 }
 
+const listItem = (id) => el('li', {}, el('span'), button('Leave it', () => discard(id), { class: 'link' }), button('Change', () => reopen(id, model.pending.get(id)), { class: 'link' }));
+
 // One item stays one element: a button that is replaced while somebody presses it does nothing.
 function listItems() {
   const { items } = card;
   for (const id of [...items.keys()]) if (!model.pending.has(id)) items.delete(id);
   for (const [id, item] of model.pending) {
-    if (!items.has(id)) items.set(id, el('li', {}, el('span'), button('Leave it', () => discard(id), { class: 'link' })));
-    const [text, leave] = items.get(id).children;
+    if (!items.has(id)) items.set(id, listItem(id));
+    const [text, leave, change] = items.get(id).children;
+    change.hidden = !item.shape || item.shape.gone || item.shape.open;
+    change.setAttribute('aria-label', `Change: ${item.words}`);
     text.textContent = item.wrong ? isWrong(item) : inOneWord(item);
     leave.setAttribute('aria-label', `Leave it: ${text.textContent}`);
     leave.hidden = model.pending.size === 1;
@@ -210,6 +215,8 @@ function present({ table, key, column, tuning }) {
 async function saveAll(isKnown) {
   if (!isKnown || !maySave()) return;
   saving = true;
+  // Whether more routes would change is not worth the wait any more.
+  stop?.abort();
   const hadFocus = byId('preview-card').contains(document.activeElement);
   show();
   const sent = new Map(model.pending);

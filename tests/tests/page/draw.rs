@@ -116,10 +116,15 @@ async fn an_outline_of_many_corners_snaps_to_walls_and_outlives_a_reload() {
     assert_eq!(corners, "0,0 2,0 2,1 0.5,1.2");
     browser.client.refresh().await.unwrap();
     browser.says("#preview", "an obstacle “obstacle 1”").await;
+    // what waits is taken up again
+    browser.press("#preview", "Change").await;
+    browser.type_into("#draw-name", "crates").await;
+    browser.click("#draw-done").await;
+    browser.says("#preview", "an obstacle “crates”").await;
     until_it_may_be_saved(&browser).await;
     browser.click("#save").await;
-    browser.says("#saved", "an obstacle “obstacle 1”").await;
-    assert_eq!(site.sqlite3(LAID), ["obstacle|obstacle 1||[[0.0,0.0],[2.0,0.0],[2.0,1.0],[0.5,1.2]]"]);
+    browser.says("#saved", "an obstacle “crates”").await;
+    assert_eq!(site.sqlite3(LAID), ["obstacle|crates||[[0.0,0.0],[2.0,0.0],[2.0,1.0],[0.5,1.2]]"]);
 }
 
 #[tokio::test(flavor = "multi_thread")]
