@@ -1,4 +1,4 @@
-//! The table `laid`: areas and obstacles that people lay over the map while the site is in use.
+//! The table `laid`: areas, obstacles and places that people lay over the map while the site is in use.
 
 use serde::Serialize;
 use sqlx::sqlite::SqliteRow;
@@ -7,15 +7,15 @@ use sqlx::{Row, SqliteConnection};
 use crate::error::Result;
 use crate::transaction::Tx;
 
-/// An area or an obstacle.
+/// An area, an obstacle or a place.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Laid {
     pub name: String,
-    /// area or obstacle.
+    /// area, obstacle or place.
     pub what: String,
     /// What an area is, where that is said.
     pub kind: Option<String>,
-    /// A JSON list of corners `[[x,y],…]`, metres.
+    /// A JSON list of corners `[[x,y],…]`, metres; of a place the one that it is.
     pub outline: String,
     /// A JSON object of what else is said of an area.
     pub properties: String,

@@ -89,6 +89,7 @@ pub(crate) const STEPS: &[Step] = &[
     Step::of_all(&[include_str!("../sql/v14/10-measures.sql"), include_str!("../sql/v14/20-routes.sql")]),
     Step::of_all(&[include_str!("../sql/v15/10-map-routes.sql")]),
     Step::of_all(&[include_str!("../sql/v16/10-one-way.sql")]),
+    Step::of_all(&[include_str!("../sql/v17/10-laid-places.sql")]),
 ];
 
 /// The newest schema version.

@@ -137,6 +137,33 @@ pub struct Relation {
     pub columns: Vec<RelationColumn>,
 }
 
+/// A foreign key: columns that hold the key of a row of another table.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, utoipa::ToSchema)]
+pub struct Reference {
+    /// The other table.
+    pub table: String,
+    /// Each column, with the one of the other table that it is equal to.
+    pub columns: Vec<[String; 2]>,
+}
+
+/// The foreign keys of a table, in the order in which they are declared.
+pub async fn references(connection: &mut SqliteConnection, table: &str) -> Result<Vec<Reference>> {
+    let query = sqlx::query(
+        "SELECT f.id, f.[table], f.[from], f.[to]
+         FROM sqlite_schema AS s, pragma_foreign_key_list(s.name) AS f
+         WHERE s.name = ? AND f.[to] IS NOT NULL ORDER BY f.id DESC, f.seq",
+    );
+    let mut found: Vec<(i64, Reference)> = Vec::new();
+    for row in query.bind(table).fetch_all(connection).await? {
+        let (id, columns) = (row.try_get(0)?, [row.try_get(2)?, row.try_get(3)?]);
+        match found.last_mut().filter(|(last, _)| *last == id) {
+            Some((_, reference)) => reference.columns.push(columns),
+            None => found.push((id, Reference { table: row.try_get(1)?, columns: vec![columns] })),
+        }
+    }
+    Ok(found.into_iter().map(|(_, reference)| reference).collect())
+}
+
 /// The tables and views that are not ours, by name; what a GeoPackage keeps about its layers is nobody's.
 pub async fn user_tables(connection: &mut SqliteConnection) -> Result<Vec<UserTable>> {
     let query = sqlx::query(
@@ -239,6 +266,11 @@ impl Tx<'_> {
     /// All tables and views, ours and the user's, with the names of their columns.
     pub fn relations(&mut self) -> Result<Vec<Named>> {
         self.run(all)
+    }
+
+    /// The foreign keys of a table, in the order in which they are declared.
+    pub fn references(&mut self, table: &str) -> Result<Vec<Reference>> {
+        self.run(async |connection| references(connection, table).await)
     }
 
     /// Reads a table or view whole, ours or the user's: by its key, or by all its columns where it has none.

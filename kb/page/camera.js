@@ -11,6 +11,7 @@ export class Camera {
     this.scale = 1;
     this.shift = [0, 0];
     this.bounds = [0, 0, 1, 1];
+    /** Whoever may take a press instead of the map: `press(point, event)`, `drag`, `finish`. */ this.tool = null;
   }
 
   /** The whole map with a margin. */
@@ -64,11 +65,13 @@ export class Camera {
   listen(tap, hover) {
     const held = new Map();
     let travelled = 0;
+    let taken = false;
     const at = (event) => [event.offsetX, event.offsetY];
     this.canvas.addEventListener('pointerdown', (event) => {
       this.canvas.setPointerCapture(event.pointerId);
       held.set(event.pointerId, at(event));
       if (held.size === 1) travelled = 0;
+      taken = held.size === 1 && Boolean(this.tool?.press(at(event), event));
     });
     this.canvas.addEventListener('pointermove', (event) => {
       const before = held.get(event.pointerId);
@@ -77,14 +80,17 @@ export class Camera {
       const [dx, dy] = [now[0] - before[0], now[1] - before[1]];
       travelled += Math.hypot(dx, dy);
       if (held.size === 1 && travelled < SLOP) return undefined;
-      if (held.size === 2) this.pinch(held, event.pointerId, now);
+      if (taken) this.tool?.drag(now, event);
+      else if (held.size === 2) this.pinch(held, event.pointerId, now);
       else this.pan(dx, dy);
       held.set(event.pointerId, now);
-      return hover(null);
+      return hover(taken ? now : null);
     });
     const release = (event) => {
       const was = held.delete(event.pointerId);
+      if (taken && travelled >= SLOP) this.tool?.finish();
       if (was && event.type === 'pointerup' && travelled < SLOP && held.size === 0 && event.button === 0) tap(at(event), event);
+      if (held.size === 0) taken = false;
     };
     this.canvas.addEventListener('pointerup', release);
     this.canvas.addEventListener('pointercancel', release);

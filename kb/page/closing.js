@@ -1,101 +1,92 @@
 /** Closing from the map: doorways, spaces, areas, named doors, rooms and doors, for a time, for all or for some robots. */
 
-import { call, post } from './api.js';
+import { post } from './api.js';
 import { card } from './answers.js';
-import { byId, debounced, el, fill, form } from './dom.js';
+import { el, fill, form } from './dom.js';
 import { model } from './model.js';
 import { said } from './notice.js';
-import { summary, thisRoute } from './preview.js';
 import { refresh } from './refresh.js';
 import { andRules, showSaved } from './saved.js';
-import { nounOf, showsPieces } from './thing.js';
+import { holds, middleOf } from './shapes.js';
+import { nounOf, showsPieces, sidesOf } from './thing.js';
+import { lookAhead } from './would.js';
 
-const WAIT = 150;
+/** As far as a door may be from the point at which it was told, metres. */
+const NEAR_M = 0.5;
+
+const pointOf = ({ object }) => object.split(',').map(Number);
+
+/** The fact by which something is closed, where one of this class is about what this finds. */
+function closedBy(classes, property, isIt) {
+  return model.facts.find((fact) => classes.includes(fact.class) && fact.property === property && fact.value === (property === 'closed') && fact.standing === 'holds' && isIt(fact));
+}
+
+const isNamed = (name) => Boolean(closedBy(['NAMED_DOORS', 'AREAS'], 'closed', ({ object }) => object === name));
+
+function doorFact(door) {
+  const [x, y] = middleOf(door.segment);
+  return closedBy(['DOORS'], 'passable', (fact) => {
+    const [fx, fy] = pointOf(fact);
+    return Math.hypot(fx - x, fy - y) <= NEAR_M;
+  });
+}
+
+const roomFact = (room) => closedBy(['ROOMS'], 'passable', (fact) => fact.object === room.name || holds(room, pointOf(fact)));
 
 /** What may be closed or opened at a thing of the map, each with its edit. */
 export function closings(thing) {
   const { weights, map } = model;
   const way = (name, closed) => ({ text: closed ? `Open ${name} again` : `Close ${name}…`, edit: { kind: closed ? 'open' : 'close', what: name } });
-  const tell = (text, fact) => ({ text, edit: { kind: 'tell', ...fact } });
+  const tell = (text, what, name, object, told) => (told
+    ? { text: `Open ${what} again`, edit: { kind: 'retract', fact: told.id } }
+    : { text: `${text} ${what}…`, edit: { kind: 'tell', class: name, object, property: 'passable', value: false } });
   const ways = [];
-  if (thing.kind === 'doorway') ways.push(way(nounOf(thing), weights.doorways.closed[thing.index]));
-  else if (thing.named) ways.push(way(thing.named.name, false));
+  if (thing.kind === 'doorway') {
+    const { closed, closed_from: from } = weights.doorways;
+    const sides = [...new Set(sidesOf(thing.index))];
+    ways.push({ ...way(nounOf(thing), closed[thing.index] || from[thing.index]), sides: sides.length > 1 ? sides : [] });
+  }
+  else if (thing.named) ways.push(way(thing.named.name, isNamed(thing.named.name)));
   if (thing.kind === 'room' && nounOf(thing)) ways.push(way(nounOf(thing), weights.spaces.closed[thing.space]));
-  for (const area of thing.areas ?? []) if (area.name !== nounOf(thing)) ways.push(way(area.name, false));
-  if (thing.kind === 'door') ways.push(tell(`Close door ${map.doors[thing.index].door}…`, { class: 'DOORS', object: String(map.doors[thing.index].door), property: 'passable', value: false }));
-  if (thing.kind === 'room' && showsPieces()) ways.push(tell(`Keep out of room ${map.rooms[thing.index].name}…`, { class: 'ROOMS', object: map.rooms[thing.index].name, property: 'passable', value: false }));
+  for (const area of thing.areas ?? []) if (area.name !== nounOf(thing)) ways.push(way(area.name, isNamed(area.name)));
+  const [door, room] = [map.doors[thing.index], map.rooms[thing.index]];
+  if (thing.kind === 'door') ways.push(tell('Close', `door ${door.door}`, 'DOORS', String(door.door), doorFact(door)));
+  if (thing.kind === 'room' && showsPieces()) ways.push(tell('Keep out of', `room ${room.name}`, 'ROOMS', room.name, roomFact(room)));
   return ways;
 }
 
 /** Asks until when and for whom, shows what would change, and does it. */
-export function close(edit, label) {
+export function close(edit, label, sides = []) {
   const title = label.replace('…', '');
   const until = el('input', { id: 'close-until', placeholder: '18:00, 2h, 2026-12-24T08:00', autocomplete: 'off' });
   const reason = el('input', { id: 'close-why', placeholder: 'if you like' });
   const { robots } = model.site;
   const only = el('select', { id: 'close-only' }, el('option', { value: '', text: 'everybody' }), ...robots.map((robot) => el('option', { value: robot, text: robot })));
-  const would = el('div', { id: 'close-preview', role: 'status' });
-  const ends = edit.kind !== 'open';
+  const from = el('select', { id: 'close-from' }, el('option', { value: '', text: 'either side' }), ...sides.map((side) => el('option', { value: side, text: side })));
+  const ends = edit.kind === 'close' || edit.kind === 'tell';
   const forSome = edit.kind === 'close' && robots.length > 1;
+  const oneSide = edit.kind === 'close' && sides.length > 0;
+  const wish = () => ({ ...edit, ...(oneSide && from.value ? { from: from.value } : {}), ...(ends && until.value.trim() ? { until: until.value.trim() } : {}), ...(forSome && only.value ? { only: [only.value] } : {}) });
+  const would = lookAhead('close-preview', wish);
   const asked = form({ class: 'line-form' }, make,
     ends ? el('label', {}, 'Until (empty: until it is opened) ', until) : null,
+    oneSide ? el('label', {}, 'From ', from) : null,
     forSome ? el('label', {}, 'For ', only) : null,
     el('label', {}, 'Why ', reason), el('button', { type: 'submit', class: 'strong', text: title }));
-  const made = card('tell-card', title, would, asked);
-  const wish = () => ({ ...edit, ...(ends && until.value.trim() ? { until: until.value.trim() } : {}), ...(forSome && only.value ? { only: [only.value] } : {}) });
-  const preview = debounced(async () => {
-    const { start, goal, robot } = model.ask;
-    try {
-      const answer = await post('/api/preview', { edits: [wish()], ...(start && goal ? { start, goal } : {}), ...(robot ? { robot } : {}) });
-      fill(would, ...(answer.closings ?? []).map((text) => el('p', { text: `Then: ${text}.` })), el('p', { text: summary(answer).join(' ') }), thisRoute(answer));
-    } catch (error) {
-      fill(would, said(error));
-    }
-  }, WAIT);
-  for (const field of [until, only]) field.addEventListener('input', preview);
-  preview();
+  const made = card('tell-card', title, would.node, asked);
+  for (const field of [until, only, from]) field.addEventListener('input', would.look);
+  would.now();
   async function make() {
+    if (!would.isSeen()) return would.now();
     try {
       const answer = await post('/api/edits', { edit: wish(), why: reason.value.trim() || undefined });
       made.remove();
       showSaved(`${title}: done.${andRules([answer])}`, [answer.done.id]);
       await refresh(answer.generation);
     } catch (error) {
-      fill(would, said(error));
+      fill(would.node, said(error));
     }
+    return undefined;
   }
   (ends ? until : reason).focus();
-}
-
-/** The form that lays an area over the map, and the list of those that lie there. */
-export function layForm(load) {
-  const field = (label, id, attributes = {}) => el('label', {}, `${label} `, el('input', { id: `lay-${id}`, autocomplete: 'off', ...attributes }));
-  const told = el('div', { id: 'lay-said' });
-  const made = form({ class: 'fact-form' }, async () => {
-    const read = (id) => byId(`lay-${id}`).value.trim();
-    const [from, to] = ['from', 'to'].map((id) => read(id).split(',').map(Number));
-    const obstacle = byId('lay-what').value === 'obstacle';
-    const body = { name: read('name'), what: byId('lay-what').value, corners: [from, to], properties: obstacle || !read('kind') ? {} : { kind: read('kind') }, until: read('until') || undefined, why: read('why') || undefined };
-    try {
-      const answer = await post('/api/areas', body);
-      showSaved(`${body.name} lies over the map.${andRules([answer])}`, [answer.done.id]);
-      fill(told);
-      await refresh(answer.generation);
-      await load();
-    } catch (error) {
-      fill(told, said(error));
-    }
-  },
-  el('label', {}, 'What ', el('select', { id: 'lay-what' }, el('option', { value: 'area', text: 'an area' }), el('option', { value: 'obstacle', text: 'an obstacle' }))),
-  field('Name', 'name', { required: true }), field('Kind', 'kind', { placeholder: 'keep-out, wet…' }),
-  field('From corner', 'from', { required: true, placeholder: 'x,y in metres' }), field('To corner', 'to', { required: true, placeholder: 'x,y in metres' }),
-  field('Until', 'until', { placeholder: '18:00, 2h' }), field('Why', 'why', { placeholder: 'if you like' }), el('button', { type: 'submit', class: 'strong', text: 'Lay it' }));
-  return el('div', {}, made, told);
-}
-
-/** Takes away what lies over the map. */
-export async function lift(name) {
-  const answer = await call('DELETE', `/api/areas/${encodeURIComponent(name)}`);
-  showSaved(`${name} no longer lies over the map.`, answer.done ? [answer.done.id] : []);
-  await refresh(answer.generation);
 }

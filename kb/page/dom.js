@@ -94,6 +94,11 @@ export function fill(parent, ...children) {
   parent.replaceChildren(...children.filter((child) => child !== null && child !== undefined));
 }
 
+/** As {@link fill}, but what stands there already is left alone: what has the focus keeps it, what is pressed stays pressed. */
+export function keep(parent, children) {
+  if (parent.children.length !== children.length || children.some((child, at) => parent.children[at] !== child)) fill(parent, ...children);
+}
+
 /** Calls `act` once it was not asked for during `wait` milliseconds; `cancel` forgets that it was. */
 export function debounced(act, wait) {
   let timer = 0;

@@ -3,14 +3,16 @@
 import { get, post } from './api.js';
 import { takeBack } from './answers.js';
 import { askCard } from './ask.js';
-import { layForm, lift } from './closing.js';
 import { button, byId, el, fill, form, grid } from './dom.js';
-import { moment, value } from './format.js';
+import { moment } from './format.js';
+import { fact as words } from './history-words.js';
+import { isGoing, readLaid, takeAway } from './laid.js';
 import { model } from './model.js';
 import { said } from './notice.js';
 import { refresh } from './refresh.js';
 import { isOpen, onTab } from './router.js';
 import { andRules, showSaved } from './saved.js';
+import { lookAhead } from './would.js';
 
 const USUAL = {
   doorway: { text: 'Nobody passes a doorway', class: 'DOORWAYS', property: 'closed', value: 'true', object: 'name of the doorway, or x,y' },
@@ -31,7 +33,7 @@ function field(label, id, attributes = {}) {
 function tellForm() {
   const kind = el('select', { id: 'fact-kind' }, ...usualHere().map((name) => el('option', { value: name, text: USUAL[name].text })));
   const made = form({ class: 'fact-form' }, tell, el('label', {}, 'What ', kind), field('Class', 'class', { placeholder: 'ROOMS, AREAS…' }), field('Which', 'object', { required: true }),
-    field('Property', 'property'), field('Value', 'value'), field('Until', 'until', { type: 'time' }), field('Why', 'why', { placeholder: 'if you like' }), el('button', { type: 'submit', class: 'strong', text: 'Tell it' }));
+    field('Property', 'property'), field('Value', 'value'), field('Until', 'until', { placeholder: '18:00, 2h, 2026-12-24T08:00' }), field('Why', 'why', { placeholder: 'if you like' }), el('button', { type: 'submit', class: 'strong', text: 'Tell it' }));
   const choose = () => {
     const usual = USUAL[kind.value];
     for (const name of ['class', 'property', 'value']) {
@@ -41,9 +43,21 @@ function tellForm() {
     made.querySelector('#fact-object').placeholder = usual.object ?? 'its name, or x,y';
   };
   kind.addEventListener('change', choose);
+  made.addEventListener('input', would.look);
   choose();
-  return made;
+  return el('div', {}, made, would.node);
 }
+
+const read = (name) => byId(`fact-${name}`).value.trim();
+
+/** The fact as it stands in the form; null where it is not whole. */
+function fact() {
+  const usual = USUAL[read('kind')];
+  const [of, property, object] = [usual.class ?? read('class'), usual.property ?? read('property'), read('object')];
+  return of && property && object ? { class: of, object, property, value: typed(usual.value ?? read('value')), until: read('until') || undefined } : null;
+}
+
+const would = lookAhead('fact-would', () => fact() && { kind: 'tell', ...fact() });
 
 /** What was typed as a value: a number, yes or no, or a text. */
 export function typed(text) {
@@ -52,39 +66,52 @@ export function typed(text) {
 }
 
 async function tell() {
-  const read = (name) => byId(`fact-${name}`).value.trim();
-  const usual = USUAL[read('kind')];
-  const fact = { class: usual.class ?? read('class'), object: read('object'), property: usual.property ?? read('property'), value: typed(usual.value ?? read('value')), until: read('until') || undefined, why: read('why') || undefined };
+  if (!would.isSeen()) return would.now();
+  const told = fact();
   try {
-    const answer = await post('/api/facts', fact);
+    const answer = await post('/api/facts', { ...told, why: read('why') || undefined });
     byId('fact-object').value = '';
+    fill(would.node);
     fill(byId('fact-said'), el('p', { class: 'right', role: 'status', text: 'Told. Routes follow at once.' }));
-    showSaved(`Told: ${fact.class} ${fact.object} ${fact.property} is ${value(fact.value)}.${andRules([answer])}`, [], { text: 'Take it back', act: () => takeBack(answer.fact) });
+    showSaved(`Told: ${words({ ...told, key: told.object })}.${andRules([answer])}`, [], { text: 'Take it back', act: () => takeBack(answer.fact) });
     await refresh(answer.generation);
     await load();
   } catch (error) {
     fill(byId('fact-said'), said(error));
   }
+  return undefined;
 }
 
 async function load() {
   try {
     const { facts } = await get('/api/facts');
-    const rows = facts.map((fact) => [`${fact.class} ${fact.object}`, `${fact.property}: ${value(fact.value)}`, fact.until ? moment(fact.until) : 'taken back', STANDING[fact.standing] ?? fact.standing, fact.who ?? '', fact.at ? moment(fact.at) : '', fact.why ?? '',
-      model.may('tell') ? button('Take back', async () => { await takeBack(fact.id); await load(); }, { 'aria-label': `Take back fact ${fact.id}` }) : null]);
-    fill(byId('facts-list'), facts.length ? grid('What is told', ['of', 'what', 'until', 'standing', 'who', 'when', 'why', ''], rows) : el('p', { class: 'hint', text: 'Nothing is told now.' }));
+    const rows = facts.map((fact) => [words({ ...fact, key: fact.object }), fact.until ? moment(fact.until) : 'taken back', STANDING[fact.standing] ?? fact.standing, fact.who ?? '', fact.at ? moment(fact.at) : '', fact.why ?? '',
+      model.may('tell') ? button('Take back', async () => { await takeBack(fact.id); await load(); }, { 'aria-label': `Take back: ${words({ ...fact, key: fact.object })}` }) : null]);
+    fill(byId('facts-list'), facts.length ? grid('What is told', ['what', 'until', 'standing', 'who', 'when', 'why', ''], rows) : el('p', { class: 'hint', text: 'Nothing is told now.' }));
   } catch (error) {
     fill(byId('facts-list'), said(error));
   }
   if (!byId('laid-list')) return;
   try {
-    const { laid } = await get('/api/areas');
-    const rows = laid.map((one) => [one.name, [one.what, one.properties?.kind].filter(Boolean).join(', '), one.until ? moment(one.until) : 'lifted', one.who ?? '', one.why ?? '',
-      model.may('tell') ? button('Lift', async () => { await lift(one.name); await load(); }, { 'aria-label': `Lift ${one.name}` }) : null]);
+    const laid = await readLaid();
+    const rows = laid.map((one) => [one.name, [one.what, one.kind].filter(Boolean).join(', '), one.until ? moment(one.until) : 'taken away', one.who ?? '', one.why ?? '', model.may('tell') ? goes(one) : null]);
     fill(byId('laid-list'), laid.length ? grid('What lies over the map', ['what', 'kind', 'until', 'who', 'why', ''], rows) : el('p', { class: 'hint', text: 'Nothing lies over the map now.' }));
   } catch (error) {
     fill(byId('laid-list'), said(error));
   }
+}
+
+// What it would change is seen beside the map, where it is saved.
+function goes(laid) {
+  const text = isGoing(laid) ? 'Keep' : 'Take away…';
+  return button(text, () => {
+    takeAway(laid);
+    location.hash = '#map';
+  }, { 'aria-label': `${text} ${laid.name}` });
+}
+
+function drawLink() {
+  return el('p', {}, el('a', { href: '#map', text: 'Draw on the map', on: { click: () => setTimeout(() => byId('draw').click()) } }), ' what else lies there: areas, obstacles, places.');
 }
 
 function show() {
@@ -92,7 +119,7 @@ function show() {
     fill(byId('facts'), el('div', { class: 'card' }, el('h2', { text: 'What is told now' }), el('div', { id: 'facts-list' })),
       model.may('tell') ? el('div', { class: 'card' }, el('h2', { text: 'Tell something' }), tellForm(), el('div', { id: 'fact-said' })) : null,
       askCard(),
-      model.site.rooms_mode === 'none' ? null : el('div', { class: 'card' }, el('h2', { text: 'What lies over the map' }), el('div', { id: 'laid-list' }), model.may('tell') ? layForm(load) : null));
+      model.site.rooms_mode === 'none' ? null : el('div', { class: 'card' }, el('h2', { text: 'What lies over the map' }), el('div', { id: 'laid-list' }), model.may('tell') ? drawLink() : null));
   }
   return load();
 }

@@ -1,30 +1,47 @@
-/** Who changed what, when and why; each entry with its undo. */
+/** Who changed what, when and why; what was done in one go is one entry, taken back in one go, once it was seen what that does. */
 
 import { get, path, post } from './api.js';
-import { button, byId, el, fill, grid } from './dom.js';
-import { moment, value } from './format.js';
+import { button, byId, el, fill, grid, sure } from './dom.js';
+import { moment } from './format.js';
+import { words } from './history-words.js';
 import { model } from './model.js';
 import { said } from './notice.js';
-import { keyName } from './pending.js';
+import { summary } from './preview.js';
 import { refresh } from './refresh.js';
 import { isOpen, onTab } from './router.js';
 
 const PAGE = 50;
+const SHOWN = 4;
 let shown = PAGE;
 
-const text = (of) => (of !== null && typeof of === 'object' ? JSON.stringify(of) : value(of));
-
-function row(entry) {
-  const what = `${entry.table} ${keyName(entry.key)}${entry.column ? ` ${entry.column}` : ''}`;
-  const change = el('span', {}, el('s', { text: text(entry.old) }), ' → ', el('b', { text: text(entry.new) }));
-  const undo = entry.undone ? el('span', { class: 'hint', text: 'taken back' })
-    : model.may('tune') ? button('Undo', () => takeBack(entry.id), { 'aria-label': `Undo ${what}` }) : null;
-  return [moment(entry.at), entry.who ?? '', what, change, entry.why ?? '', undo];
+/** Entries that were made together, the newest first. */
+function together(edits) {
+  const sets = new Map();
+  for (const entry of edits) sets.set(entry.change_set, [entry, ...(sets.get(entry.change_set) ?? [])]);
+  return [...sets.values()];
 }
 
-async function takeBack(edit) {
+function row(entries, undoing) {
+  const [first] = entries;
+  // What takes something back is called by what it takes back.
+  const isUndo = entries.some(({ id }) => undoing.has(id));
+  const ordered = isUndo ? [...entries].reverse() : entries;
+  const all = [...new Set(ordered.map((entry) => words(isUndo ? { ...entry, old: entry.new, new: entry.old } : entry)))];
+  const what = `${isUndo ? 'Taken back: ' : ''}${all[0]}`;
+  const more = all.length > 1 ? el('details', { open: all.length <= SHOWN }, el('summary', { text: `and ${all.length - 1} more` }), el('ul', { class: 'plain' }, ...all.slice(1).map((text) => el('li', { text })))) : null;
+  const open = entries.filter(({ undone }) => !undone);
+  const undo = !open.length ? el('span', { class: 'hint', text: 'taken back' })
+    : model.may('tune') ? button('Undo…', () => takeBack(open[0].id, what), { 'aria-label': `Undo ${what}` }) : null;
+  const by = [first.who, first.why].filter(Boolean).join(': ');
+  return [moment(first.at), el('div', { class: 'what' }, what, by ? el('p', { class: 'hint', text: by }) : null, more), undo];
+}
+
+async function takeBack(edit, what) {
+  const undo = { kind: 'undo', edit };
   try {
-    const answer = await post('/api/edits', { edit: { kind: 'undo', edit } });
+    const would = await post('/api/preview', { edits: [undo] });
+    if (!await sure(`Take back “${what}”? ${summary(would).join(' ')}`, 'Take it back')) return;
+    const answer = await post('/api/edits', { edit: undo });
     await refresh(answer.generation);
     await load();
   } catch (error) {
@@ -37,7 +54,9 @@ async function load() {
     const { edits } = await get(path('/api/history', { limit: shown + 1 }));
     const more = edits.length > shown ? button('Show earlier ones', () => { shown += PAGE; return load(); }) : null;
     const none = el('p', { class: 'card', text: 'Nothing was edited yet. What is tuned on the map’s page is kept here, with who, when and why.' });
-    fill(byId('history'), edits.length ? el('div', { class: 'card' }, grid('History', ['when', 'who', 'what', 'old → new', 'why', ''], edits.slice(0, shown).map(row)), more) : none);
+    const undoing = new Set(edits.map(({ undone }) => undone));
+    const rows = together(edits.slice(0, shown)).map((entries) => row(entries, undoing));
+    fill(byId('history'), edits.length ? el('div', { class: 'card' }, grid('History', ['when', 'what', ''], rows), more) : none);
   } catch (error) {
     fill(byId('history'), said(error));
   }

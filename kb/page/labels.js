@@ -4,7 +4,7 @@ import { number } from './format.js';
 import { EASIEST, roomsWeigh } from './layers.js';
 import { model } from './model.js';
 import { boxIn, centreOf } from './shapes.js';
-import { showsPieces } from './thing.js';
+import { onlyInto, showsPieces } from './thing.js';
 
 const MOST_ROOMS = 500;
 const PLAIN = '12px system-ui, sans-serif';
@@ -29,7 +29,10 @@ export class Labels {
     context.font = font;
     const width = context.measureText(text).width;
     for (const [x, y, align] of spots) {
-      const left = align === 'left' ? x : align === 'right' ? x - width : x - width / 2;
+      const wished = align === 'left' ? x : align === 'right' ? x - width : x - width / 2;
+      // Of what is in sight the word is, too.
+      const most = context.canvas.clientWidth - width - 3;
+      const left = x < 0 || x > context.canvas.clientWidth ? wished : Math.max(3, Math.min(wished, most));
       const box = [left - 1, y - 8, left + width + 1, y + 8];
       if (this.taken.some((other) => box[0] < other[2] && other[0] < box[2] && box[1] < other[3] && other[1] < box[3])) continue;
       this.taken.push(box);
@@ -83,9 +86,10 @@ function spaces(labels, camera) {
     labels.put(weights.spaces.closed[index] ? `${name} ✕` : name, [[px, py, 'center'], [px, py + 16, 'center'], [px, py - 16, 'center']]);
   }
   map.doorways.forEach(({ segment: [x0, y0, x1, y1] }, index) => {
-    if (Math.hypot(x1 - x0, y1 - y0) * camera.scale < 24 && !weights.doorways.closed[index]) return;
-    const name = weights.doorways.name[index];
-    labels.put(weights.doorways.closed[index] ? `${name} ✕` : name, around(camera.toScreen([(x0 + x1) / 2, (y0 + y1) / 2]), 9));
+    const { closed, name: names } = weights.doorways;
+    const [name, into] = [names[index], onlyInto(index)];
+    if (Math.hypot(x1 - x0, y1 - y0) * camera.scale < 24 && !closed[index] && !into) return;
+    labels.put(closed[index] ? `${name} ✕` : into ? `${name} → ${into}` : name, around(camera.toScreen([(x0 + x1) / 2, (y0 + y1) / 2]), 9));
   });
 }
 
@@ -97,7 +101,7 @@ function places(labels, camera) {
     context.beginPath();
     context.arc(at[0], at[1], 3, 0, 7);
     context.fill();
-    labels.put(place.place, around(at, 7), BOLD);
+    if (place.place !== model.route?.start && place.place !== model.route?.goal) labels.put(place.place, around(at, 7), BOLD);
   }
 }
 

@@ -7,11 +7,13 @@ import { startExperience } from './experience.js';
 import { startFacts } from './facts.js';
 import { startFirm } from './firm.js';
 import { moment } from './format.js';
+import { readLaid } from './laid.js';
 import { startHistory } from './history.js';
 import { startMap } from './map.js';
 import { model } from './model.js';
 import { banner, complain, where } from './notice.js';
 import { startOutline } from './outline.js';
+import { keepPending } from './pending.js';
 import { startPicture } from './picture.js';
 import { startPreview } from './preview.js';
 import { refresh } from './refresh.js';
@@ -22,6 +24,7 @@ import { startSql } from './sql.js';
 import { follow } from './stream.js';
 import { startTables } from './table.js';
 import { startTheme } from './theme.js';
+import { readTunings, startTunings } from './tunings.js';
 
 function inForce() {
   const { site, weights } = model;
@@ -78,10 +81,15 @@ async function begin() {
     model.set('site', site);
     start();
     model.set('site', site);
+    const [laid, tunings, { facts }] = await Promise.all([readLaid(), readTunings(), get('/api/facts')]);
+    model.set('facts', facts);
+    model.set('laid', laid);
+    model.set('tunings', tunings);
     model.set('tables', tables);
     model.set('map', map);
     model.set('weights', weights);
     model.set('generation', weights.generation);
+    keepPending();
     route();
   } catch (error) {
     complain(error);
@@ -96,6 +104,7 @@ function start() {
   startPicture();
   startEnds();
   startTables();
+  startTunings();
   startPreview();
   startRoute();
   startFirm();

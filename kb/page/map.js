@@ -2,10 +2,13 @@
 
 import { Camera } from './camera.js';
 import { byId, el, fill } from './dom.js';
+import { drawing, startDraw } from './draw.js';
 import { action, number } from './format.js';
 import { Drawn, EASIEST, layerName, ofRobot, roomsWeigh } from './layers.js';
+import { laidAt } from './laid.js';
+import { showPoint, showScale } from './measure.js';
 import { model } from './model.js';
-import { inks, paint } from './paint.js';
+import { inks, paint, paintOver } from './paint.js';
 import { Finder } from './places.js';
 import { closePopover, openPopover } from './popover.js';
 import { centreOf, middleOf, polygon } from './shapes.js';
@@ -14,27 +17,40 @@ import { onTheme } from './theme.js';
 
 const canvas = byId('canvas');
 const context = canvas.getContext('2d');
-const camera = new Camera(canvas, () => { closePopover(); invalidate(); });
+const over = byId('over').getContext('2d');
+const camera = new Camera(canvas, () => { closePopover(); pointAtMiddle(); invalidate(); });
 let finder = null;
 let shown = null;
 let still = null;
 let ink = null;
 let pointed = null;
 let waiting = false;
+let isFloorDue = false;
 let layout = null;
 
-/** Draws the map again at the next frame. */
-export function invalidate() {
+/** Draws the layer over the floor again at the next frame: what is pointed at, and what waits. */
+function invalidateOver() {
   if (waiting) return;
   waiting = true;
   requestAnimationFrame(() => {
     waiting = false;
     if (!shown || canvas.clientWidth === 0) return;
-    paint(context, camera, shown, still, ink, pointed, (at) => finder.roomsAt(at));
+    paintOver(over, camera, ink, pointed);
+    if (!isFloorDue) return;
+    isFloorDue = false;
+    paint(context, camera, shown, still, ink, (at) => finder.roomsAt(at));
+    showScale(camera);
     // Whoever measures how soon an edit is seen reads it here.
     canvas.dataset.generation = model.weights.generation;
     canvas.dataset.changed = String(shown.changedRooms.size + shown.changedDoors.size);
+    canvas.dataset.view = [camera.scale, ...camera.shift].join(' ');
   });
+}
+
+/** Draws the map again at the next frame. */
+export function invalidate() {
+  isFloorDue = true;
+  invalidateOver();
 }
 
 /** Everything that follows from weights, preview or layer. */
@@ -111,17 +127,27 @@ function thingAt(point, reach = 8) {
   const near = reach / camera.scale;
   const doorway = showsPieces() ? -1 : finder.doorwayAt(at, near);
   const door = finder.doorAt(at, near, (index) => shown.shownDoors.has(index));
-  const common = { at, space: finder.spaceAt(at), place: finder.placeAt(at, near * 1.5), named: finder.namedDoorAt(at, near * 1.5), areas: finder.areasAt(at) };
+  const common = { at, laid: laidAt(at, camera.scale), space: finder.spaceAt(at), place: finder.placeAt(at, near * 1.5), named: finder.namedDoorAt(at, near * 1.5), areas: finder.areasAt(at) };
   if (doorway >= 0) return { kind: 'doorway', index: doorway, ...common };
   if (door >= 0) return { kind: 'door', index: door, ...common };
   const room = shown.topRoom(finder.roomsAt(at));
   return room >= 0 ? { kind: 'room', index: room, ...common } : { kind: 'wall', index: -1, ...common };
 }
 
+// Who moves the map by keys acts on its middle.
+function pointAtMiddle() {
+  if (document.activeElement === canvas) showPoint(camera.toMap([canvas.clientWidth / 2, canvas.clientHeight / 2]));
+}
+
 function hover(point) {
+  showPoint(point && camera.toMap(point));
+  if (drawing()) {
+    byId('tip').hidden = true;
+    return;
+  }
   const thing = point && finder && shown ? thingAt(point) : null;
   const tip = byId('tip');
-  if (pointed?.index !== thing?.index || pointed?.kind !== thing?.kind) invalidate();
+  if (pointed?.index !== thing?.index || pointed?.kind !== thing?.kind) invalidateOver();
   pointed = thing?.kind === 'wall' ? null : thing;
   tip.hidden = !pointed || !byId('popover').hidden;
   if (tip.hidden) return;
@@ -147,8 +173,10 @@ function resize() {
   const { clientWidth: width, clientHeight: height } = canvas;
   if (!width) return;
   if (canvas.width !== Math.round(width * dense) || canvas.height !== Math.round(height * dense)) {
-    canvas.width = Math.round(width * dense);
-    canvas.height = Math.round(height * dense);
+    for (const layer of [canvas, over.canvas]) {
+      layer.width = Math.round(width * dense);
+      layer.height = Math.round(height * dense);
+    }
     if (model.map && (first || camera.scale === 1)) fit();
     invalidate();
   }
@@ -197,11 +225,14 @@ export function startMap(lead) {
     if (!finder || !shown) return;
     const thing = thingAt(at, event.pointerType === 'touch' ? 16 : 8);
     byId('tip').hidden = true;
+    if (drawing()) return drawing().tap(at, event);
     if (event.shiftKey) return lead('goal', thing);
     if (!model.ask.start) return lead('start', thing);
     if (!model.ask.goal) return lead('goal', thing);
     return openPopover(thing, at);
   }, hover);
+  startDraw(camera, invalidateOver);
+  canvas.addEventListener('focus', pointAtMiddle);
   byId('zoom-in').addEventListener('click', () => camera.zoom(1.4));
   byId('zoom-out').addEventListener('click', () => camera.zoom(1 / 1.4));
   byId('zoom-fit').addEventListener('click', fit);
@@ -217,6 +248,7 @@ export function startMap(lead) {
     redraw();
   });
   model.on('route whyNot', invalidate);
+  model.on('pending', invalidateOver);
   onTheme(() => {
     ink = null;
     redraw();

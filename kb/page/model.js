@@ -7,8 +7,12 @@ class Model extends EventTarget {
   /** `/api/tables` */ tables = null;
   /** What is asked: start, goal, robot. */ ask = { start: '', goal: '', robot: '' };
   /** `/api/route`, or `{error}` */ route = null;
-  /** `/api/preview` of the edited cells */ preview = null;
-  /** Edited cells that are not saved, by table, key and column. */ pending = new Map();
+  /** `/api/preview` of what is pending */ preview = null;
+  /** What is edited and not saved, by a name of its own; see `pending.js`. */ pending = new Map();
+  /** `/api/tunings` */ tunings = [];
+  /** The tuning in which cells are edited; none: in the tables. */ editIn = '';
+  /** Facts that are told, of `/api/facts` */ facts = [];
+  /** What people laid over the map, of `/api/areas` */ laid = [];
   /** The answer to "why not that way?" */ whyNot = null;
   /** `/api/firm` of the present route */ firm = null;
   /** The newest generation seen. */ generation = 0;

@@ -14,10 +14,13 @@ export function banner(name, content, tone = 'warn') {
   byId('banners').append(made);
 }
 
+// What helps in a terminal helps nobody here.
+const isForTerminals = (help) => help.includes('`adit ');
+
 /** An error as nodes: what is wrong, and what helps. */
 export function said(error) {
   const parts = [el('p', { class: 'wrong', role: 'alert', text: error.message })];
-  if (error.help) parts.push(el('p', { class: 'hint', text: error.help }));
+  if (error.help && !isForTerminals(error.help)) parts.push(el('p', { class: 'hint', text: error.help }));
   for (const problem of error.problems ?? []) {
     if (problem.message !== error.message) parts.push(el('p', { class: 'hint', text: where(problem) + problem.message }));
   }

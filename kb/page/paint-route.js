@@ -117,11 +117,10 @@ function ends(context, camera, ink, labels) {
   const [first, last] = [waypoints[0], waypoints.at(-1)];
   disc(context, camera, first, ink, ink.paper);
   disc(context, camera, last, ink, ink.ink);
-  const named = (text) => (model.map.places.some(({ place }) => place === text) ? '' : `: ${text}`);
   for (const [waypoint, word, text, down] of [[first, 'start', model.route.start, 17], [last, 'goal', model.route.goal, -17]]) {
     const [px, py] = camera.toScreen([waypoint.x, waypoint.y]);
     labels.keep(px, py, 9);
-    labels.put(`${word}${named(text)}`, [[px, py + down, 'center'], [px, py - down, 'center'], [px + 14, py, 'left'], [px - 14, py, 'right']], '700 13px system-ui, sans-serif');
+    labels.put(`${text} (${word})`, [[px, py + down, 'center'], [px, py - down, 'center'], [px + 14, py, 'left'], [px - 14, py, 'right']], '700 13px system-ui, sans-serif');
   }
 }
 

@@ -6,6 +6,7 @@ import { hatching } from './palette.js';
 import { polygon, trace } from './shapes.js';
 import { colour } from './theme.js';
 import { showsPieces } from './thing.js';
+import { paintPending } from './paint-pending.js';
 import { paintRoutes } from './paint-route.js';
 
 /** Colours and patterns of the present theme, made once until it changes. */
@@ -20,16 +21,34 @@ export function inks(context) {
   };
 }
 
-/** Everything, from the floor up to the labels. `shown` is a Drawn, `still` the walls' paths, `find` gives the rooms at a point. */
-export function paint(context, camera, shown, still, ink, pointed, find) {
+// Metres or pixels as the unit of what is painted next.
+function units(context, camera) {
   const dense = window.devicePixelRatio || 1;
+  return {
+    world: () => context.setTransform(dense * camera.scale, 0, 0, -dense * camera.scale, dense * camera.shift[0], dense * camera.shift[1]),
+    screen: () => context.setTransform(dense, 0, 0, dense, 0, 0),
+  };
+}
+
+/** On the layer over the floor: what is pointed at, and what waits. It is painted alone while nothing beneath it changes. */
+export function paintOver(context, camera, ink, pointed) {
+  const { world, screen } = units(context, camera);
+  screen();
+  context.clearRect(0, 0, context.canvas.clientWidth, context.canvas.clientHeight);
+  world();
+  if (pointed) outline(context, pointed, ink, 1 / camera.scale);
+  screen();
+  paintPending(context, camera, ink, new Labels(context, ink));
+}
+
+/** Everything, from the floor up to the labels. `shown` is a Drawn, `still` the walls' paths, `find` gives the rooms at a point. */
+export function paint(context, camera, shown, still, ink, find) {
   const { clientWidth: width, clientHeight: height } = context.canvas;
-  context.setTransform(dense, 0, 0, dense, 0, 0);
+  const { world, screen } = units(context, camera);
+  screen();
   context.clearRect(0, 0, width, height);
   context.fillStyle = ink.paper;
   context.fillRect(0, 0, width, height);
-  const world = () => context.setTransform(dense * camera.scale, 0, 0, -dense * camera.scale, dense * camera.shift[0], dense * camera.shift[1]);
-  const screen = () => context.setTransform(dense, 0, 0, dense, 0, 0);
   const pixel = 1 / camera.scale;
   const tile = new DOMMatrix([pixel, 0, 0, pixel, 0, 0]);
   for (const pattern of [ink.bridge, ink.changed, ink.barred, ink.unknown]) pattern.setTransform(tile);
@@ -67,7 +86,6 @@ export function paint(context, camera, shown, still, ink, pointed, find) {
   context.lineWidth = 4 * pixel;
   context.strokeStyle = ink.ink;
   context.stroke(still.namedDoors);
-  if (pointed) outline(context, pointed, ink, pixel);
 
   screen();
   const labels = new Labels(context, ink);
@@ -118,7 +136,7 @@ function paintDoorways(context, ink, pixel) {
 // What nobody passes, or some robots do not: a bar with a white line in it, as a sign at a street says it.
 function paintClosed(context, ink, pixel) {
   const { doorways, closings } = model.weights;
-  const shut = [...model.map.doorways.filter((_, index) => doorways.closed[index]), ...closings];
+  const shut = [...model.map.doorways.filter((_, index) => doorways.closed[index] || doorways.closed_from[index]), ...closings];
   for (const { segment } of shut) {
     context.strokeStyle = ink.shut;
     context.lineWidth = 7 * pixel;

@@ -1,20 +1,28 @@
-/** Cells that were edited and are not saved yet. */
+/** What was edited and is not saved yet: cells, rows, and what is drawn on the map. It is previewed and saved together. */
 
 import { model } from './model.js';
 
-/** How a cell is named among the pending ones. */
-export const cellId = (table, key, column) => JSON.stringify([table, key, column]);
+/** How a cell is named among what is pending. */
+export const cellId = (table, key, column, tuning) => JSON.stringify(tuning ? [table, key, column, tuning] : [table, key, column]);
 
 const same = (a, b) => a === b || (a === null && b === '') || (a === '' && b === null);
 
-/** Edits one cell; back at its old value it is no edit. @param {Object} cell table, key, column, old, value, wrong */
+/** Edits one cell; back at its old value it is no edit. @param {Object} cell table, key, column, old, value, wrong; tuning, where it is of one */
 export function editCell(cell) {
-  const id = cellId(cell.table, cell.key, cell.column);
+  const id = cellId(cell.table, cell.key, cell.column, cell.tuning);
   const pending = new Map(model.pending);
   const old = pending.has(id) ? pending.get(id).old : cell.old;
   if (!cell.wrong && same(cell.value, old)) pending.delete(id);
   else pending.set(id, { ...cell, old });
   model.set('pending', pending);
+}
+
+/**
+ * Takes up what is no cell, in place of what has this name.
+ * @param {Object} item `words` for people, `edits` for the service; `wrong` as long as it cannot be saved, `shape` where it is drawn
+ */
+export function put(id, item) {
+  model.set('pending', new Map(model.pending).set(id, item));
 }
 
 /** Takes edits back; all of them where none is named. */
@@ -24,14 +32,38 @@ export function discard(id) {
   model.set('pending', pending);
 }
 
-/** The pending cells as edits that the service understands. */
+/** The pending cells, each with its name. */
+export const cells = () => [...model.pending].filter(([, item]) => item.column !== undefined);
+
+function set({ table, key, column, old, value, tuning }, withOld) {
+  if (!tuning) return { kind: 'set', table, key, column, value, ...(withOld ? { old } : {}) };
+  return value === null ? { kind: 'unset_in_tuning', tuning, table, key, column } : { kind: 'set_in_tuning', tuning, table, key, column, value };
+}
+
+/** What is pending as edits that the service understands. */
 export function edits(withOld) {
-  return [...model.pending.values()].filter((cell) => !cell.wrong).map(({ table, key, column, old, value }) => (
-    withOld ? { kind: 'set', table, key, column, value, old } : { kind: 'set', table, key, column, value }));
+  return [...model.pending.values()].filter((item) => !item.wrong).flatMap((item) => item.edits ?? [set(item, withOld)]);
 }
 
 /** A row's key without the robot where there is but one: `SQUAT`. */
 export function keyName(key) {
   const robots = model.site?.robots ?? [];
   return robots.length === 1 && key.startsWith(`${robots[0]}/`) ? key.slice(robots[0].length + 1) : key;
+}
+
+const KEPT = 'adit-pending';
+
+/** Keeps it over a reload of the page, for this site and this tab of the browser. */
+export function keepPending() {
+  try {
+    const { site, items } = JSON.parse(sessionStorage.getItem(KEPT) ?? '{}');
+    if (site === model.site.name && items?.length) model.set('pending', new Map(items));
+  } catch {
+    sessionStorage.removeItem(KEPT);
+  }
+  model.on('pending', () => {
+    const items = [...model.pending];
+    if (items.length) sessionStorage.setItem(KEPT, JSON.stringify({ site: model.site.name, items }));
+    else sessionStorage.removeItem(KEPT);
+  });
 }

@@ -113,7 +113,8 @@ function nearest(buckets, list, at, reach, drawn) {
   return best;
 }
 
-function inside([x, y], polygon) {
+/** Whether a point lies in a polygon x, y, x, y, … */
+export function inside([x, y], polygon) {
   let within = false;
   for (let i = 0, j = polygon.length - 2; i < polygon.length; j = i, i += 2) {
     const [xi, yi, xj, yj] = [polygon[i], polygon[i + 1], polygon[j], polygon[j + 1]];

@@ -3,7 +3,9 @@
 import { why, whyNot } from './answers.js';
 import { close, closings } from './closing.js';
 import { button, byId, el, fill } from './dom.js';
+import { redraw } from './draw.js';
 import { list } from './format.js';
+import { describe, isGoing, names, takeAway } from './laid.js';
 import { model } from './model.js';
 import { endOf, nameOf, nounOf, pieceOf, weightsOf } from './thing.js';
 import { lead } from './ends.js';
@@ -30,7 +32,7 @@ export function openPopover(thing, [px, py]) {
   const named = solid ? '' : nameOf(thing);
   fill(
     box,
-    el('h3', { text: thing.place ? `${thing.place.place}, ${title}` : title }),
+    el('h3', { text: thing.place ? `${thing.place.place}, ${title}` : solid && thing.laid?.length ? names(thing.laid) : title }),
     el('p', { text }),
     around,
     thing.kind === 'room' && nounOf(thing) ? el('p', { class: 'hint', text: `here ${pieceOf(thing)}` }) : null,
@@ -38,13 +40,20 @@ export function openPopover(thing, [px, py]) {
     solid ? null : act('Go here', () => lead('goal', thing)),
     solid || thing.kind === 'doorway' ? null : act('Why is it so?', () => why(pieceOf(thing))),
     !solid && model.ask.start && model.ask.goal ? act(`Why not through ${named}?`, () => whyNot(named)) : null,
-    ...(model.may('tell') ? closings(thing).map(({ text: label, edit }) => act(label, () => close(edit, label))) : []),
+    ...(model.may('tell') ? (thing.laid ?? []).flatMap((of) => laid(of, act)) : []),
+    ...(model.may('tell') ? closings(thing).map(({ text: label, edit, sides }) => act(label, () => close(edit, label, sides))) : []),
     button('Close', closePopover, { class: 'quiet' }),
   );
   box.hidden = false;
   place(box, px, py);
   box.querySelector('button').focus({ preventScroll: true });
   box.setAttribute('aria-label', `${title}: ${endOf(thing)}`);
+}
+
+// What was laid over the map may be moved, changed and taken away.
+function laid(of, act) {
+  if (isGoing(of)) return [act(`Keep ${describe(of)}`, () => takeAway(of))];
+  return [act(`Take away ${describe(of)}…`, () => takeAway(of)), act(`Move or change ${describe(of)}…`, () => redraw(of))];
 }
 
 function place(box, px, py) {

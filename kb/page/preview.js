@@ -1,14 +1,16 @@
-/** Before anything is saved: what the edited cells would change, on the map and in numbers. */
+/** Before anything is saved: what all that is edited would change together, on the map and in numbers. */
 
 import { post } from './api.js';
-import { button, byId, debounced, el, fill } from './dom.js';
+import { button, byId, debounced, el, fill, keep } from './dom.js';
+import { reopen } from './draw.js';
 import { cost, count, list, number, value } from './format.js';
 import { askFirm, firmWithin } from './firm.js';
 import { model } from './model.js';
 import { said } from './notice.js';
-import { cellId, discard, edits, keyName } from './pending.js';
+import { cells, discard, edits, keyName } from './pending.js';
 import { refresh } from './refresh.js';
 import { andRules, focusSaved, showSaved } from './saved.js';
+import { isOn } from './tunings.js';
 
 const WAIT = 120;
 const QUICK = 30;
@@ -27,6 +29,7 @@ const isPreviewed = () => Boolean(model.preview) && previewed === question();
 
 const ask = debounced(async () => {
   stop?.abort();
+  if (saving) return undefined;
   const wanted = edits(false);
   if (!wanted.length) {
     failed = null;
@@ -51,7 +54,8 @@ const ask = debounced(async () => {
   return undefined;
 }, WAIT);
 
-const inOneWord = (cell) => `${keyName(cell.key)} ${cell.column.replaceAll('_', ' ')} ${value(cell.old)} → ${value(cell.value)}`;
+const inOneWord = (item) => item.words ?? `${keyName(item.key)} ${item.column.replaceAll('_', ' ')} ${value(item.old)} → ${item.tuning && item.value === null ? 'as in the tables' : value(item.value)}${item.tuning ? ` in the tuning “${item.tuning}”${isOn(item.tuning) ? '' : ', which is off'}` : ''}`;
+const isWrong = (item) => `${item.words ?? `${keyName(item.key)} ${item.column}`}: ${item.wrong}`;
 
 /** The counts, in the expert's terms. */
 export function summary(preview) {
@@ -60,9 +64,10 @@ export function summary(preview) {
   if (model.site.layout_kind) {
     // there are no rooms that could change
   } else if (model.site.rooms_mode === 'none') return [preview.conclusions.length ? `${count(preview.conclusions.length, 'conclusion')} would be otherwise.` : 'Nothing would be concluded otherwise.'];
-  if (preview.layout_changed) parts.push('The floor is cut into rooms anew.');
-  if (doors.changed || rooms.changed) parts.push(`${list([doors.changed ? count(doors.changed, 'door') : null, rooms.changed ? count(rooms.changed, 'room') : null].filter(Boolean))} would weigh otherwise.`);
-  else if (!model.site.layout_kind && !preview.layout_changed && !preview.closings?.length) parts.push('No room and no door would weigh otherwise.');
+  // Where the floor is cut anew, a room is no longer the one that it was: there is none to count.
+  if (preview.layout_changed) parts.push('The floor would be cut into rooms anew.');
+  else if (doors.changed || rooms.changed) parts.push(`${list([doors.changed ? count(doors.changed, 'door') : null, rooms.changed ? count(rooms.changed, 'room') : null].filter(Boolean))} would weigh otherwise.`);
+  else if (!model.site.layout_kind && !preview.closings?.length) parts.push('No room and no door would weigh otherwise.');
   // Where there are too many to compare while somebody types, the service says how many it did.
   const compared = routes?.compared ?? routes?.total ?? 0;
   if (routes?.total && !compared) parts.push(`${count(routes.total, 'route')} between places are too many to compare while you type.`);
@@ -116,45 +121,65 @@ let card = null;
 function makeCard() {
   const made = {
     typed: el('ul', { class: 'plain typed' }),
-    told: el('div'),
+    items: new Map(),
+    told: el('div', { id: 'preview-told' }),
     clashes: el('div'),
     why: el('input', { id: 'save-why', placeholder: 'if you like' }),
     who: el('input', { id: 'save-who', placeholder: 'for the history', autocomplete: 'name', value: localStorage.getItem('adit-who') ?? '' }),
     save: el('button', { type: 'button', id: 'save', class: 'strong', 'aria-keyshortcuts': 'Control+Enter', on: { click: () => saveAll(isPreviewed()) } }),
     unseen: el('button', { type: 'button', id: 'save-unseen', text: 'Save without a preview', on: { click: () => saveAll(isPreviewless()) } }),
     discard: button('Discard', () => { conflicts = new Map(); discard(); }, { id: 'discard' }),
+    hint: el('span', { class: 'hint', text: 'Ctrl-Enter saves, too.' }),
   };
   made.whose = el('label', {}, 'Your name ', made.who);
   made.who.addEventListener('input', () => localStorage.setItem('adit-who', made.who.value.trim()));
-  fill(byId('preview'), made.typed, made.told, made.clashes, el('label', {}, 'Why ', made.why), made.whose, el('div', { class: 'buttons' }, made.save, made.unseen, made.discard, el('span', { class: 'hint', text: 'Ctrl-Enter saves, too.' })));
+  fill(byId('preview'), made.typed, made.told, made.clashes, el('label', {}, 'Why ', made.why), made.whose, el('div', { class: 'buttons' }, made.save, made.unseen, made.discard, made.hint));
   return made;
 }
 
-function told(cells) {
+function told() {
   const { preview } = model;
   if (failed) return [said(failed)];
-  if (preview) return [el('p', { id: 'preview-summary', text: summary(preview).join(' ') }), thisRoute(preview), conclusionList(preview.conclusions), routeList(preview.routes), firmWithin(cells.map(([, cell]) => cell))];
-  return cells.every(([, cell]) => cell.wrong) ? [] : [el('p', { class: 'hint', text: 'Looking what would change…' })];
+  if (preview) return [el('p', { id: 'preview-summary', text: summary(preview).join(' ') }), thisRoute(preview), conclusionList(preview.conclusions), routeList(preview.routes), firmWithin(cells().map(([, cell]) => cell))];
+  return [...model.pending.values()].every((item) => item.wrong) ? [] : [el('p', { class: 'hint', text: 'Looking what would change…' })];
+}
+
+const listItem = (id) => el('li', {}, el('span'), button('Leave it', () => discard(id), { class: 'link' }), button('Change', () => reopen(id, model.pending.get(id)), { class: 'link' }));
+
+// One item stays one element: a button that is replaced while somebody presses it does nothing.
+function listItems() {
+  const { items } = card;
+  for (const id of [...items.keys()]) if (!model.pending.has(id)) items.delete(id);
+  for (const [id, item] of model.pending) {
+    if (!items.has(id)) items.set(id, listItem(id));
+    const [text, leave, change] = items.get(id).children;
+    change.hidden = !item.shape || item.shape.gone || item.shape.open;
+    change.setAttribute('aria-label', `Change: ${item.words}`);
+    text.textContent = item.wrong ? isWrong(item) : inOneWord(item);
+    leave.setAttribute('aria-label', `Leave it: ${text.textContent}`);
+    leave.hidden = model.pending.size === 1;
+  }
+  keep(card.typed, [...items.values()]);
 }
 
 function show() {
-  const cells = [...model.pending.entries()];
-  byId('preview-card').hidden = cells.length === 0;
-  if (!cells.length) return;
+  const { size } = model.pending;
+  byId('preview-card').hidden = size === 0;
+  if (!size) return;
   card ??= makeCard();
-  fill(card.typed, ...cells.map(([, cell]) => el('li', { text: cell.wrong ? `${keyName(cell.key)} ${cell.column}: ${cell.wrong}` : inOneWord(cell) })));
-  fill(card.told, ...told(cells));
+  listItems();
+  fill(card.told, ...told());
   card.told.setAttribute('aria-busy', String(Boolean(model.preview) && !isPreviewed()));
   const clashes = [...conflicts].filter(([id]) => model.pending.has(id));
   fill(card.clashes, refused ? said(refused) : null, ...clashes.map(([id, error]) => conflict(id, error)));
   card.whose.hidden = Boolean(sessionStorage.getItem('adit-token'));
-  card.save.textContent = cells.length === 1 ? 'Save' : `Save ${cells.length} cells`;
+  card.save.textContent = size === 1 ? 'Save' : `Save all ${size}`;
   card.save.disabled = !maySave() || !isPreviewed();
   card.unseen.hidden = !isPreviewless();
   card.unseen.disabled = !maySave();
 }
 
-const maySave = () => !saving && ![...model.pending].some(([id, cell]) => cell.wrong || conflicts.has(id));
+const maySave = () => !saving && ![...model.pending].some(([id, item]) => item.wrong || conflicts.has(id));
 
 // What would change cannot be told: too large, too late. Whoever saves it all the same has to say so.
 const isPreviewless = () => Boolean(failed && failed.status >= 500);
@@ -177,49 +202,49 @@ function settle(id, current) {
   return undefined;
 }
 
-/** Saves all cells; `isKnown` says whether it was on the screen what that would change, or that it cannot be told. */
+const isSame = (one, other) => JSON.stringify([one?.edits, one?.value]) === JSON.stringify([other.edits, other.value]);
+
+/** What the tables hold of a cell. */
+function present({ table, key, column, tuning }) {
+  if (tuning) return undefined;
+  const of = model.table(table);
+  return of?.rows[of.keys.indexOf(key)]?.[of.columns.findIndex(({ name }) => name === column)];
+}
+
+/** Saves all, in one transaction; `isKnown` says whether it was on the screen what that would change, or that it cannot be told. */
 async function saveAll(isKnown) {
   if (!isKnown || !maySave()) return;
   saving = true;
+  // Whether more routes would change is not worth the wait any more.
+  stop?.abort();
   const hadFocus = byId('preview-card').contains(document.activeElement);
   show();
-  const why = card.why.value.trim() || undefined;
-  const done = [];
-  const words = [];
-  const answers = [];
-  let generation;
-  for (const edit of edits(true)) {
-    const id = cellId(edit.table, edit.key, edit.column);
-    try {
-      const answer = await post('/api/edits', { edit, why });
-      done.push(answer.done.id);
-      answers.push(answer);
-      words.push(inOneWord(model.pending.get(id) ?? edit));
-      generation = answer.generation;
-      const pending = new Map(model.pending);
-      pending.delete(id);
-      model.pending = pending;
-    } catch (error) {
-      if (error.status === 409) conflicts.set(id, error);
-      else refused = error;
-    }
-  }
-  if (done.length) {
-    showSaved(`Saved: ${list(words)}.${andRules(answers)}`, done);
-    if (hadFocus) focusSaved();
-  }
-  const keepRefusal = refused;
-  if (!model.pending.size) model.preview = null;
-  // What was saved is shown as saved even before the new weights are here.
-  if (done.length) {
+  const sent = new Map(model.pending);
+  const wanted = edits(true);
+  const [only] = wanted;
+  const edit = wanted.length === 1 ? only : { kind: 'together', edits: wanted };
+  let keepRefusal = null;
+  try {
+    const answer = await post('/api/edits', { edit, why: card.why.value.trim() || undefined });
+    // What was saved is shown as saved even before the new weights are here; what was typed meanwhile waits.
+    model.pending = new Map([...model.pending].filter(([id, item]) => !isSame(sent.get(id), item)));
+    if (!model.pending.size) model.preview = null;
     card.why.value = '';
-    await refresh(generation);
-  } else if (conflicts.size) {
-    await refresh();
+    showSaved(`Saved: ${list([...sent.values()].map(inOneWord))}.${andRules([answer])}`, [answer.done.id]);
+    if (hadFocus) focusSaved();
+    // A tuning that is off changes nothing but itself.
+    await refresh(answer.generation === model.weights?.generation ? undefined : answer.generation);
+  } catch (error) {
+    if (error.status === 409) await refresh();
+    for (const [id, cell] of error.status === 409 ? cells() : []) {
+      const current = present(cell);
+      if (current !== undefined && current !== cell.old) conflicts.set(id, { message: `${keyName(cell.key)} ${cell.column} is ${value(current)} by now, and was ${value(cell.old)} when you began.`, current });
+    }
+    if (!conflicts.size) keepRefusal = error;
   }
   saving = false;
   model.set('pending', new Map(model.pending));
-  // What the service refused is said until the cell is edited again.
+  // What the service refused is said until it is edited again.
   refused = keepRefusal;
   show();
 }
@@ -229,9 +254,15 @@ function saveBySign(event) {
   if (event.key !== 'Enter' || !(event.ctrlKey || event.metaKey)) return;
   event.preventDefault();
   if (event.repeat || !isPreviewed()) return;
-  const { top, bottom } = byId('preview-summary').getBoundingClientRect();
-  if (top >= 0 && bottom <= window.innerHeight) saveAll(true);
+  if (isInSight()) saveAll(true);
   else byId('preview-summary').scrollIntoView({ block: 'center' });
+}
+
+// Within the card, too, which may be scrolled, and of which Save covers the lower end.
+function isInSight() {
+  const { top, bottom } = byId('preview-summary').getBoundingClientRect();
+  const least = Math.max(0, byId('preview-card').getBoundingClientRect().top);
+  return top >= least && bottom <= Math.min(window.innerHeight, card.save.parentElement.getBoundingClientRect().top + 1);
 }
 
 /** Previews edits while they are typed; Ctrl-Enter saves them, Escape discards them all. */
@@ -254,8 +285,5 @@ export function startPreview() {
   byId('preview-card').addEventListener('keydown', (event) => {
     if (event.key === 'Escape') discard();
   });
-  for (const id of ['tables', 'preview-card']) byId(id).addEventListener('keydown', saveBySign);
-  window.addEventListener('beforeunload', (event) => {
-    if (model.pending.size) event.preventDefault();
-  });
+  for (const id of ['map-card', 'tables', 'preview-card']) byId(id).addEventListener('keydown', saveBySign);
 }

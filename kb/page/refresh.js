@@ -2,8 +2,10 @@
 
 import { get } from './api.js';
 import { askRoute } from './ends.js';
+import { readLaid } from './laid.js';
 import { model } from './model.js';
 import { complain } from './notice.js';
+import { readTunings } from './tunings.js';
 
 let running = null;
 let again = false;
@@ -35,7 +37,7 @@ export async function refresh(generation) {
 }
 
 async function load() {
-  const rest = Promise.all([get('/api/site'), get('/api/tables')]);
+  const rest = Promise.all([get('/api/site'), get('/api/tables'), readLaid(), readTunings(), get('/api/facts')]);
   // A failure of the rest is heard below, when it is waited for; until then it is no stray one.
   rest.catch(() => {});
   const way = askRoute();
@@ -45,12 +47,15 @@ async function load() {
   if (!moved) model.set('weights', weights);
   const map = moved ? await get('/api/map') : null;
   if (moved && map.layout !== weights.layout) return load();
-  const [site, tables] = await rest;
+  const [site, tables, laid, tunings, { facts }] = await rest;
+  model.set('facts', facts);
+  model.set('laid', laid);
+  model.set('tunings', tunings);
   model.set('site', site);
   model.set('tables', tables);
   if (moved) {
+    model.set('preview', null);
     model.weights = null;
-    model.preview = null;
     model.set('map', map);
     model.set('weights', weights);
   }

@@ -2,6 +2,9 @@
 
 import { byId } from './dom.js';
 
+// The tab is shown once the address has changed.
+const SHOWN_MS = 50;
+
 const shown = new Map();
 
 /** The tab and its parameters that an address names. */
@@ -49,5 +52,6 @@ export function route() {
     event.preventDefault();
     byId('content').focus();
   });
+  byId('to-tables').addEventListener('click', () => setTimeout(() => document.querySelector('#tables summary')?.focus(), SHOWN_MS));
   open();
 }

@@ -1,12 +1,14 @@
 /** The tables beside the map. A cell that is edited shows old and new until it is saved. */
 
-import { byId, el, fill } from './dom.js';
+import { field, isOfAll, parse, titleOf } from './cells.js';
+import { byId, el, fill, keep } from './dom.js';
 import { exact, number, value as inWords } from './format.js';
 import { model } from './model.js';
 import { cellId, discard, editCell, keyName } from './pending.js';
+import { isGoing, newRow, newRows, rowForms } from './rows.js';
+import { inTuning } from './tunings.js';
 
 const MOST_ROWS = 200;
-const TITLES = { robots: 'Robot states', changes: 'Changes of shape', loads: 'Loads', hours: 'Opening hours' };
 
 /** What is shown: by table, its structure as text and its cells. */
 const views = new Map();
@@ -34,48 +36,50 @@ function build(table, open) {
   const columns = columnsOf(table);
   const cells = new Map();
   const results = [];
-  const concluded = Object.hasOwn(TITLES, table.table) ? [] : table.concluded ?? [];
+  const concluded = isOfAll(table.table) ? [] : table.concluded ?? [];
   const head = el('tr', {}, ...columns.map(({ name, unit, kind, key }) => el('th', { scope: 'col', class: key ? null : kind }, name.replaceAll('_', ' '), unit ? el('small', { text: ` ${unit}` }) : null)), ...concluded.map(({ property }) => el('th', { scope: 'col', class: 'concluded', text: property.replaceAll('_', ' ') })));
   const wanted = rowsOf(table);
   const rows = wanted.slice(0, MOST_ROWS).map(({ key, at }) => el('tr', { 'data-key': key }, ...columns.map((column) => {
     if (column.key) return el('th', { scope: 'row', text: String(table.rows[at][column.index]) });
     const cell = makeCell(table, key, column, table.rows[at][column.index]);
-    cells.set(cellId(table.table, key, column.name), { ...cell, at, column });
+    cells.set(cellId(table.table, key, column.name), { ...cell, at, key, column });
     return cell.td;
   }), ...concluded.map(({ property }) => {
     const td = el('td', { class: 'concluded' });
     results.push({ td, at, property });
     return td;
   })));
-  const title = TITLES[table.table] ?? table.table;
-  const grid = el('div', { class: 'scroll' }, el('table', { class: 'tuned' }, el('caption', { class: 'unseen', text: title }), el('thead', {}, head), el('tbody', {}, ...rows)));
+  const title = titleOf(table.table);
+  const coming = el('tbody');
+  const grid = el('div', { class: 'scroll' }, el('table', { class: 'tuned' }, el('caption', { class: 'unseen', text: title }), el('thead', {}, head), el('tbody', {}, ...rows), coming));
   const more = wanted.length > MOST_ROWS ? el('p', { class: 'hint', text: `The first ${MOST_ROWS} of ${wanted.length} rows; SQL shows all.` }) : null;
   const empty = wanted.length ? null : el('p', { class: 'hint', text: 'Nothing is said here.' });
-  const node = el('details', { open, 'data-table': table.table }, el('summary', { text: title }), grid, more, empty);
-  return { node, cells, results, structure: structure(table) };
+  const node = el('details', { open, 'data-table': table.table }, el('summary', { text: title }), grid, more, empty, model.may('tune') ? rowForms(table, columns) : null);
+  return { node, cells, results, structure: structure(table), table, columns, rows, coming, shown: new Map() };
 }
 
 function makeCell(table, key, column, value) {
   const label = `${column.name} of ${keyName(key)}`;
   const struck = el('s', { class: 'old', hidden: true });
   const note = el('span', { class: 'note', role: 'status', hidden: true });
-  const input = column.kind === 'truth'
-    ? el('select', { 'aria-label': label }, el('option', { value: '', text: '' }), el('option', { value: 'true', text: 'yes' }), el('option', { value: 'false', text: 'no' }))
-    : el('input', { 'aria-label': label, inputmode: column.kind === 'number' ? 'decimal' : null, spellcheck: 'false', size: column.kind === 'number' ? '5' : '12' });
-  input.value = exact(value);
-  input.disabled = !model.may('tune');
-  const cell = { td: el('td', { class: column.kind }, struck, input, note), input, struck, note, value };
+  const force = el('span', { class: 'force', hidden: true });
+  const input = field(column, label, value);
+  const cell = { td: el('td', { class: column.kind }, struck, input, note, force), input, struck, note, force, value };
   const read = () => {
-    const typed = parse(input.value, column);
-    editCell({ table: table.table, key, column: column.name, old: views.get(table.table).cells.get(cellId(table.table, key, column.name)).value, ...typed });
+    // What a tuning no longer says is as the tables have it.
+    const typed = parse(input.value, model.editIn ? { ...column, required: false } : column);
+    editCell({ table: table.table, key, column: column.name, old: views.get(table.table).cells.get(cellId(table.table, key, column.name)).value, ...typed, ...(model.editIn ? { tuning: model.editIn } : {}) });
   };
   input.addEventListener('input', read);
   input.addEventListener('keydown', (event) => {
-    if (event.key === 'Escape') discard(cellId(table.table, key, column.name));
+    if (event.key === 'Escape') discard(waitsAs(table.table, key, column.name));
     if (event.key === 'Enter' && !event.ctrlKey && !event.metaKey && !event.isComposing) goDown(event);
   });
   return cell;
 }
+
+/** How an edit of a cell waits: in the tables, or in the tuning that is edited. */
+const waitsAs = (table, key, column) => cellId(table, key, column, model.editIn);
 
 /** Enter goes to the same column of the next row. Nothing is saved by it: that takes Ctrl-Enter, or Save. */
 function goDown(event) {
@@ -86,22 +90,15 @@ function goDown(event) {
   below?.select?.();
 }
 
-/** What was typed, as the column's kind; or what is wrong with it. */
-export function parse(text, column) {
-  const typed = text.trim();
-  if (typed === '') return column.required ? { value: '', wrong: 'needs a value' } : { value: null };
-  if (column.kind === 'truth') return { value: typed === 'true' };
-  if (column.kind !== 'number') return { value: typed };
-  const value = Number(typed.replace(',', '.'));
-  return Number.isFinite(value) ? { value } : { value: typed, wrong: 'needs a number' };
-}
-
 function update(table) {
   const view = views.get(table.table);
-  for (const [id, cell] of view.cells) {
-    const now = table.rows[cell.at][cell.column.index];
-    const pending = model.pending.get(id);
+  for (const cell of view.cells.values()) {
+    const { key, column } = cell;
+    const base = table.rows[cell.at][column.index];
+    const now = inTuning(table.table, key, column.name) ?? base;
+    const pending = model.pending.get(waitsAs(table.table, key, column.name));
     cell.value = now;
+    cell.td.classList.toggle('tuned-otherwise', now !== base);
     if (!pending && document.activeElement !== cell.input) cell.input.value = exact(now);
     if (pending && pending.old !== now) warn(cell, pending, now);
   }
@@ -113,8 +110,10 @@ function update(table) {
   const marks = new Map((table.overridden ?? []).map((mark) => [cellId(table.table, mark.key, mark.column), mark]));
   for (const [id, cell] of view.cells) {
     const mark = marks.get(id);
-    cell.td.title = mark ? `The tuning ${mark.tuning} says ${inWords(mark.value)} while it is on` : '';
+    const words = mark ? `${inWords(mark.value)} counts: ${mark.tuning} is on` : '';
     cell.td.classList.toggle('overridden', Boolean(mark));
+    cell.force.hidden = !mark || mark.tuning === model.editIn;
+    if (cell.force.textContent !== words) cell.force.textContent = words;
   }
 }
 
@@ -127,7 +126,7 @@ function warn(cell, pending, now) {
 
 function tables() {
   // Without a map there is no robot: its tables are empty, and only take room.
-  const present = model.tables.tables.filter(({ table, rows }) => model.site.rooms_mode !== 'none' || rows.length || !Object.hasOwn(TITLES, table));
+  const present = model.tables.tables.filter(({ table, rows }) => model.site.rooms_mode !== 'none' || rows.length || !isOfAll(table));
   const names = new Set(present.map(({ table }) => table));
   for (const name of [...views.keys()]) if (!names.has(name)) views.delete(name);
   let anew = views.size !== present.length;
@@ -144,11 +143,25 @@ function tables() {
   marks();
 }
 
-/** Shows which cells are edited: old struck through, new beside it. */
+// A row that comes stays the same element as long as it waits: somebody may be typing in it.
+function markRows({ table, columns, rows, coming, shown }) {
+  const wanted = new Map(newRows(table.table).map((of) => [JSON.stringify([of[0], of[1]]), of]));
+  for (const id of [...shown.keys()]) if (!wanted.has(id)) shown.delete(id);
+  for (const [id, of] of wanted) if (!shown.has(id)) shown.set(id, newRow(table, columns, of));
+  keep(coming, [...shown.values()]);
+  for (const row of rows) {
+    const going = isGoing(table.table, row.dataset.key);
+    row.classList.toggle('going', going);
+    for (const input of row.querySelectorAll('input, select')) input.disabled = going || !model.may('tune');
+  }
+}
+
+/** Shows which cells are edited, old struck through, new beside it; and which rows come and go. */
 function marks() {
   for (const view of views.values()) {
-    for (const [id, cell] of view.cells) {
-      const pending = model.pending.get(id);
+    markRows(view);
+    for (const cell of view.cells.values()) {
+      const pending = model.pending.get(waitsAs(view.table.table, cell.key, cell.column.name));
       cell.td.classList.toggle('edited', Boolean(pending));
       cell.struck.hidden = !pending;
       cell.struck.textContent = pending ? inWords(pending.old) : '';
@@ -169,6 +182,6 @@ function marks() {
 
 /** Shows the tables and keeps them up to date. */
 export function startTables() {
-  model.on('tables ask', () => { if (model.tables) tables(); });
+  model.on('tables tunings editIn ask', () => { if (model.tables) tables(); });
   model.on('pending', marks);
 }

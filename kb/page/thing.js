@@ -37,11 +37,23 @@ export function weightsOf(thing) {
   return { title: noun ?? `${nameOf(thing)}${state}`, text: `${shut}${inWords(thing.kind, hardness, how, passable)}` };
 }
 
+/** The names of the spaces that a doorway is between. */
+export function sidesOf(index) {
+  return model.map.doorways[index].spaces.map((number) => model.weights.spaces.name[model.map.spaces.findIndex(({ space }) => space === number)]);
+}
+
+/** Where a doorway that is closed from one side leads; nothing of another one. */
+export function onlyInto(index) {
+  const { closed, closed_from: from } = model.weights.doorways;
+  return closed[index] || !from[index] ? undefined : sidesOf(index).find((name) => name !== from[index]);
+}
+
 function doorway({ index }) {
-  const { width, height, spaces } = model.map.doorways[index];
-  const between = spaces.map((number) => model.weights.spaces.name[model.map.spaces.findIndex(({ space }) => space === number)]);
+  const { width, height } = model.map.doorways[index];
+  const between = sidesOf(index);
   const wide = `${metres(width)} wide${height === null ? '' : `, ${metres(height)} high`}`;
-  const shut = model.weights.doorways.closed[index] ? 'closed; ' : '';
+  const { closed, closed_from: from } = model.weights.doorways;
+  const shut = closed[index] ? 'closed; ' : from[index] ? `closed from ${from[index]}; ` : '';
   return { title: model.weights.doorways.name[index], text: `${shut}${wide}, between ${list(between)}` };
 }
 

@@ -2,6 +2,7 @@
 
 use adit_db::Tx;
 use adit_db::cell::Cell;
+use adit_db::edit::Edited;
 use adit_db::history::Author;
 use serde::Serialize;
 
@@ -52,7 +53,7 @@ pub enum Edit {
     Close(Close),
     /// What is open again, by the name that people have for it.
     Open(String),
-    /// An area or an obstacle that lies over the map from now on.
+    /// An area, an obstacle or a place that lies over the map from now on.
     Lay(Lay),
     /// What no longer lies over the map, by name.
     Lift(String),
@@ -66,6 +67,8 @@ pub enum Edit {
     Switch(String, bool),
     /// An entry of the history that is taken back; the latest one without a number.
     Undo(Option<i64>),
+    /// Several edits, one after the other, of which all are made or none.
+    Together(Vec<Edit>),
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -78,6 +81,16 @@ pub struct Done {
     pub new: Cell,
     /// Entries of the history that were taken back with it.
     pub with: usize,
+    /// What each of several edits did that were made together, this one being the first of them.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub parts: Vec<Done>,
+}
+
+impl Done {
+    fn of(done: Edited, with: usize) -> Self {
+        let Edited { id, key, old, new } = done;
+        Self { id, key, old, new, with, parts: Vec::new() }
+    }
 }
 
 impl Edit {
@@ -143,12 +156,20 @@ impl Edit {
             Self::Undo(id) => match id.or(tx.undoable(1)?.first().copied()) {
                 Some(id) => {
                     let (done, with) = undo::undo(tx, rules, id, author)?;
-                    return Ok(Done { id: done.id, key: done.key, old: done.old, new: done.new, with });
+                    return Ok(Done::of(done, with));
                 }
                 None => return Err(Error::said(Code::EditNothingToUndo, "there is nothing to undo", None)),
             },
+            Self::Together(edits) => {
+                let each = edits.iter().map(|edit| edit.apply(tx, site, rules, author));
+                let parts = each.collect::<Result<Vec<Done>>>()?;
+                let Some(first) = parts.first().cloned() else {
+                    return Err(Error::said(Code::EditUsage, "there is nothing to edit", None));
+                };
+                return Ok(Done { parts, ..first });
+            }
         };
-        Ok(Done { id: done.id, key: done.key, old: done.old, new: done.new, with: 0 })
+        Ok(Done::of(done, 0))
     }
 }
 

@@ -143,7 +143,7 @@ impl State {
         let (layout_changed, weighed) = (step.is_cut_anew, step.weighed.clone());
         self.accept(step);
         let after = Arc::clone(self.graph());
-        let same = !layout_changed && weighed.is_empty();
+        let same = !layout_changed && weighed.is_empty() && before.places == after.places;
         let routes = if let (Some(before), Some(after)) = (&before_courses, &self.courses) {
             routes::between(before, after)
         } else if same {

@@ -192,6 +192,50 @@ impl Browser {
         self.client.perform_actions(mouse).await.expect("clicked");
     }
 
+    /// Where a point of the map is on the screen, in pixels from the middle of the canvas.
+    async fn on_screen(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        let seen = "(({ dataset, clientWidth, clientHeight }) => [...dataset.view.split(' ').map(Number), clientWidth, clientHeight])(document.getElementById('canvas'))";
+        self.until("document.getElementById('canvas').dataset.view", "the map is drawn").await;
+        let seen: Vec<f64> = serde_json::from_value(self.value(seen).await).expect("numbers");
+        let [scale, right, down, width, height] = seen[..] else { panic!("{seen:?}") };
+        [(right + x * scale - width / 2.0).round(), (down - y * scale - height / 2.0).round()]
+    }
+
+    async fn pointer_on_map(&self, points: &[[f64; 2]], is_pressed: bool) {
+        let canvas = self.find("#canvas").await;
+        let mut mouse = MouseActions::new("mouse".to_owned());
+        for (at, point) in points.iter().enumerate() {
+            let [x, y] = self.on_screen(*point).await;
+            let element = canvas.clone();
+            let duration = (at > 0).then(|| Duration::from_millis(100));
+            mouse = mouse.then(PointerAction::MoveToElement { element, duration, x, y });
+            if at == 0 && is_pressed {
+                mouse = mouse.then(PointerAction::Down { button: MOUSE_BUTTON_LEFT });
+            }
+        }
+        if is_pressed {
+            mouse = mouse.then(PointerAction::Up { button: MOUSE_BUTTON_LEFT });
+        }
+        self.client.perform_actions(mouse).await.expect("moved");
+    }
+
+    /// Drags from one point of the map to another, metres.
+    pub async fn drag_on_map(&self, from: [f64; 2], to: [f64; 2]) {
+        self.pointer_on_map(&[from, to], true).await;
+    }
+
+    /// Presses on a point of the map, metres.
+    pub async fn tap_on_map(&self, at: [f64; 2]) {
+        self.pointer_on_map(&[at], true).await;
+        // what follows is no double click
+        tokio::time::sleep(Duration::from_millis(120)).await;
+    }
+
+    /// Points at a point of the map, metres.
+    pub async fn hover_on_map(&self, at: [f64; 2]) {
+        self.pointer_on_map(&[at], false).await;
+    }
+
     /// Tells Chromium something that `WebDriver` has no word for.
     fn devtools(&self, command: &str, parameters: &Value) {
         let body = json!({ "cmd": command, "params": parameters }).to_string();

@@ -5,18 +5,24 @@
 mod accessible;
 #[path = "page/ask.rs"]
 mod ask;
+#[path = "page/draw.rs"]
+mod draw;
 #[path = "page/drawn.rs"]
 mod drawn;
 #[path = "page/experience.rs"]
 mod experience;
 #[path = "page/find_out.rs"]
 mod find_out;
+#[path = "page/history.rs"]
+mod history;
 #[path = "page/keyboard.rs"]
 mod keyboard;
 #[path = "page/latency.rs"]
 mod latency;
 #[path = "page/live.rs"]
 mod live;
+#[path = "page/rows.rs"]
+mod rows;
 #[path = "page/rules.rs"]
 mod rules;
 #[path = "page/shop.rs"]
@@ -25,6 +31,8 @@ mod shop;
 mod sql;
 #[path = "page/tune.rs"]
 mod tune;
+#[path = "page/tunings.rs"]
+mod tunings;
 #[path = "page/unseen.rs"]
 mod unseen;
 

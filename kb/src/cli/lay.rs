@@ -12,12 +12,12 @@ use crate::error::Result;
 pub struct LayArgs {
     #[command(flatten)]
     pub site: SiteArgs,
-    /// A part of the floor of which rules speak, or something that no robot comes through
-    #[arg(value_parser = ["area", "obstacle"])]
+    /// A part of the floor of which rules speak, something that no robot comes through, or a named point
+    #[arg(value_parser = ["area", "obstacle", "place"])]
     pub what: String,
     /// Its name
     pub name: String,
-    /// Its corners in their order, metres: `"1,2 3,2 3,4"`; two are those of a rectangle
+    /// Its corners in their order, metres: `"1,2 3,2 3,4"`; two are those of a rectangle, and a place is one
     #[arg(value_parser = corners, allow_hyphen_values = true)]
     pub corners: Corners,
     /// What an area is: `wet`, `keep-out`
@@ -62,11 +62,7 @@ fn corners(text: &str) -> std::result::Result<Corners, String> {
         corner.ok_or_else(|| format!("`{text}` is no corner: say `x,y`, two numbers without a blank"))
     };
     let corners = text.split_whitespace().map(corner).collect::<std::result::Result<Vec<_>, _>>()?;
-    if corners.len() < 2 {
-        Err("say two corners or more: `\"1,2 3,4\"`".to_owned())
-    } else {
-        Ok(Corners(corners))
-    }
+    if corners.is_empty() { Err("say where: `\"1,2 3,4\"`".to_owned()) } else { Ok(Corners(corners)) }
 }
 
 fn property(text: &str) -> std::result::Result<(String, String), String> {
@@ -76,7 +72,7 @@ fn property(text: &str) -> std::result::Result<(String, String), String> {
 
 /// Lays something over the map.
 pub fn lay(args: &LayArgs) -> Result<()> {
-    let what = if args.what == Thing::Obstacle.name() { Thing::Obstacle } else { Thing::Area };
+    let what = Thing::called(&args.what).unwrap_or_default();
     let edit = Edit::Lay(Lay {
         what,
         name: args.name.clone(),

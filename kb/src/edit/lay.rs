@@ -1,4 +1,4 @@
-//! Areas and obstacles laid over the map while the site is in use.
+//! Areas, obstacles and places laid over the map while the site is in use.
 
 use adit_db::edit::Edited;
 use adit_db::history::Author;
@@ -21,6 +21,8 @@ pub enum Thing {
     Area,
     /// Something that no robot comes through.
     Obstacle,
+    /// A named point.
+    Place,
 }
 
 impl Thing {
@@ -28,7 +30,13 @@ impl Thing {
         match self {
             Self::Area => "area",
             Self::Obstacle => "obstacle",
+            Self::Place => "place",
         }
+    }
+
+    /// By the name that people give it.
+    pub(crate) fn called(name: &str) -> Option<Self> {
+        [Self::Area, Self::Obstacle, Self::Place].into_iter().find(|what| what.name() == name)
     }
 }
 
@@ -37,7 +45,7 @@ impl Thing {
 pub struct Lay {
     pub what: Thing,
     pub name: String,
-    /// Metres, in the order in which they follow one another; two are those of a rectangle.
+    /// Metres, in the order in which they follow one another; two are those of a rectangle, and one is a place.
     pub corners: Vec<[f64; 2]>,
     /// What an area is.
     pub kind: Option<String>,
@@ -79,8 +87,15 @@ impl Lay {
         author: &Author,
     ) -> Result<Edited> {
         let (name, what) = (self.name.trim(), self.what.name());
-        if self.what == Thing::Obstacle && (self.kind.is_some() || !self.properties.is_empty()) {
-            let message = format!("`{name}` is an obstacle: only an area has a kind and properties");
+        if self.what != Thing::Area && (self.kind.is_some() || !self.properties.is_empty()) {
+            let article = if self.what == Thing::Obstacle { "an" } else { "a" };
+            let message = format!("`{name}` is {article} {what}: only an area has a kind and properties");
+            return Err(Error::said(Code::LaidUsage, message, None));
+        }
+        let is_place = self.what == Thing::Place;
+        if is_place != (self.corners.len() == 1) {
+            let needed = if is_place { "one point" } else { "two corners or more" };
+            let message = format!("where `{name}` lies is said by {needed}, not by {}", self.corners.len());
             return Err(Error::said(Code::LaidUsage, message, None));
         }
         if let Some(row) = tx.laid()?.iter().find(|row| row.name == name) {

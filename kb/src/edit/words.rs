@@ -10,8 +10,12 @@ use crate::words::number::number;
 
 impl Edit {
     /// In a few words, what an edit did.
-    pub(crate) fn words(&self, Done { key, old, new, with, .. }: &Done) -> String {
+    pub(crate) fn words(&self, Done { key, old, new, with, parts, .. }: &Done) -> String {
         match self {
+            Self::Together(edits) => {
+                let each = edits.iter().zip(parts).map(|(edit, done)| edit.words(done));
+                each.collect::<Vec<_>>().join("; ")
+            }
             Self::Set(table, _, column, _) | Self::SetFrom([table, _, column], ..) if old == new => {
                 format!("{table}.{key}.{column} is {new} already")
             }

@@ -145,7 +145,7 @@ codes! {
     LaidUnknown = "laid/unknown", NOT_FOUND;
     /// A row of the table `laid` cannot be read.
     LaidUnreadable = "laid/unreadable", BAD_REQUEST;
-    /// What is laid over a map is an area, or an obstacle, which is of no kind; its corners are pairs of numbers.
+    /// What is laid over a map is an area, or an obstacle or a place, which are of no kind; its corners are pairs of numbers, of a place one.
     LaidUsage = "laid/usage", BAD_REQUEST;
 
     /// A layer is written as .geojson or .json.

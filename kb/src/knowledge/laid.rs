@@ -1,4 +1,4 @@
-//! Areas and obstacles that people lay over the map while the site is in use: read and checked as those of `site.toml` are.
+//! Areas, obstacles and places that people lay over the map while the site is in use: read and checked as those of `site.toml` are.
 
 use adit_db::Tx;
 use adit_db::laid::Laid as Row;
@@ -13,7 +13,7 @@ use crate::site::clock::{Clock, stored};
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Laid(Vec<Item>);
 
-/// An area or an obstacle with its text in the map's own language.
+/// An area, an obstacle or a place with its text in the map's own language.
 #[derive(Clone, Debug, PartialEq)]
 struct Item {
     /// What people call it: ``the area `wet spot` ``.
@@ -72,12 +72,16 @@ impl Item {
         let further: Map<String, Value> =
             serde_json::from_str(&row.properties).map_err(|_| unreadable("no object of properties"))?;
         let mut item = toml::Table::new();
-        if row.what == "area" {
+        if row.what != "obstacle" {
             item.insert("name".to_owned(), row.name.as_str().into());
             item.extend(row.kind.as_deref().map(|kind| ("kind".to_owned(), kind.into())));
         }
-        let polygon = corners.iter().map(|&[x, y]| toml::Value::from(vec![x, y]));
-        item.insert("polygon".to_owned(), polygon.collect::<Vec<_>>().into());
+        let mut corners = corners.iter().map(|&[x, y]| toml::Value::from(vec![x, y]));
+        if row.what == "place" {
+            item.extend(corners.next().map(|at| ("at".to_owned(), at)));
+        } else {
+            item.insert("polygon".to_owned(), corners.collect::<Vec<_>>().into());
+        }
         for (property, value) in further {
             let value = match value {
                 Value::Bool(truth) => truth.into(),

@@ -2,6 +2,7 @@
 
 use std::time::{Duration, Instant};
 
+use adit_db::place::Place;
 use serde::Serialize;
 
 use crate::graph::SiteGraph;
@@ -62,7 +63,8 @@ impl PlaceRoutes {
     }
 }
 
-/// Compares the routes from each place to all others. Those of before are looked up where they are known.
+/// Compares the routes from each place to all others that there are afterwards. Those of before are looked up where they are
+/// known.
 pub(super) fn compare(
     (before, known): ((&SiteGraph, &Gauge), &Known),
     after: (&SiteGraph, &Gauge),
@@ -71,17 +73,25 @@ pub(super) fn compare(
     patience: Duration,
 ) -> PlaceRoutes {
     let began = Instant::now();
-    let mut all = PlaceRoutes { compared: 0, ..PlaceRoutes::none(robots.len(), before.0.places.len()) };
+    let mut all = PlaceRoutes { compared: 0, ..PlaceRoutes::none(robots.len(), after.0.places.len()) };
     let wanted = pairs::starts(before.0, robots);
     let old = known.rows(before, robots, &wanted, || began.elapsed() < patience / 2);
-    let wanted: Vec<From> = wanted.into_iter().filter(|from| old.contains_key(from)).collect();
+    // which of the places of before, in the order of their names, each one is
+    let known_as = |place: &Place| {
+        let found = before.0.places.binary_search_by(|old| old.place.cmp(&place.place)).ok();
+        found.filter(|at| before.0.places[*at] == *place)
+    };
+    let was: Vec<Option<usize>> = after.0.places.iter().map(known_as).collect();
+    let is_ready = |&(robot, start): &From| was[start].is_none_or(|start| old.contains_key(&(robot, start)));
+    let wanted: Vec<From> = pairs::starts(after.0, robots).into_iter().filter(is_ready).collect();
     let new = pairs::rows(after, robots, &wanted, || began.elapsed() < patience);
     for ((robot, start), row) in &new {
         for (goal, new) in row.iter().enumerate().filter(|(goal, _)| goal != start) {
-            let old = old.get(&(*robot, *start)).and_then(|row| *row.get(goal)?);
+            let of_before = was[*start].zip(was[goal]);
+            let old = of_before.and_then(|(start, goal)| *old.get(&(*robot, start))?.get(goal)?);
             all.compared += 1;
             if let Some(other_way) = all.note(old, *new, is_anew) {
-                let name = |place: usize| before.0.places[place].place.clone();
+                let name = |place: usize| after.0.places[place].place.clone();
                 all.list.push(PlaceRoute {
                     robot: robots[*robot].clone(),
                     start: name(*start),

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use adit_db::door::Door;
+use adit_db::place::Place;
 use adit_db::room::Room;
 use adit_db::schema::Row as _;
 use adit_engine::{Changes, KnowledgeBase as Inference, Severity};
@@ -36,7 +37,7 @@ pub struct Step {
     pub attached: Attached,
     /// What planners gave, and from what.
     pub planned: Planned,
-    /// Whether planners gave facts anew.
+    /// Whether planners gave facts anew, or places are others.
     pub is_anew: bool,
     /// All rooms and doors, where planners made them anew.
     pub cut: Option<Arc<SiteGraph>>,
@@ -92,6 +93,7 @@ impl State {
         };
         told.notes.extend(notes);
         let given = self.ask_planners((&world, &told), &mut changes, (recall, progress, &mut clock))?;
+        let places = self.places_of(&world);
         if given.is_any {
             attached = Attached::default();
             told.attach(&self.knowledge, |_| true, &mut attached);
@@ -100,11 +102,12 @@ impl State {
         let (knowledge, rules) = (&self.knowledge, &inputs.rules);
         let before = self.twin.shown();
         let (mut cut, mut is_cut_anew, mut weighed) = (None, false, Weighed::default());
-        let which = if given.is_any { Which::All } else { Which::Touched(&changes) };
+        let is_anew = given.is_any || places.is_some();
+        let which = if is_anew { Which::All } else { Which::Touched(&changes) };
         let mut look = Look { knowledge, rules, which, reasons: Some(&mut reasons) };
         let building =
             look.building(|closable| told.lines(&attached, closable), &world, &before.building).map(Arc::new);
-        if given.rooms.is_some() || given.doors.is_some() {
+        if given.rooms.is_some() || given.doors.is_some() || places.is_some() {
             let mut rooms = given.rooms.unwrap_or_else(|| before.rooms.clone());
             let mut doors = given.doors.unwrap_or_else(|| before.doors.clone());
             weights::check(knowledge, (&rooms, &doors), None)?;
@@ -116,7 +119,8 @@ impl State {
                 weighed = Weighed::between(old, new);
             }
             let building = Arc::clone(building.as_ref().unwrap_or(&before.building));
-            cut = Some(Arc::new(SiteGraph::new(rooms, doors, before.places.clone(), building)));
+            let places = places.unwrap_or_else(|| before.places.clone());
+            cut = Some(Arc::new(SiteGraph::new(rooms, doors, places, building)));
         } else {
             let changes = (!given.is_any).then_some(&changes);
             weights::check(knowledge, (&before.rooms, &before.doors), changes)?;
@@ -139,7 +143,7 @@ impl State {
         if courses.is_some() {
             clock.lap("routes");
         }
-        let (planned, is_anew, stages) = (given.planned, given.is_any, clock.stages);
+        let (planned, stages) = (given.planned, clock.stages);
         Ok(Step {
             world,
             told,
@@ -156,6 +160,14 @@ impl State {
             reacted: Vec::new(),
             gauge,
         })
+    }
+
+    /// The places of a map, where they are others than now.
+    fn places_of(&self, world: &Arc<World>) -> Option<Vec<Place>> {
+        if Arc::ptr_eq(world, &self.world) {
+            return None;
+        }
+        Some(rows::places(world)).filter(|places| *places != self.graph().places)
     }
 
     /// Makes what a step changed what is known.

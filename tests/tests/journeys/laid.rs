@@ -1,5 +1,5 @@
-//! Areas and obstacles that people lay over the map while a site is in use: ways heed them at once, until they end or are
-//! lifted, and the map's files stay as they are.
+//! Areas, obstacles and places that people lay over the map while a site is in use: ways heed them at once, until they end or
+//! are lifted, and the map's files stay as they are.
 #![allow(clippy::unwrap_used)] // in a test a failed unwrap is a failed test
 
 use adit_tests::TestSite;
@@ -61,6 +61,37 @@ fn an_area_is_weighed_by_the_rules_as_one_of_the_map_is_and_taken_back_by_undo()
 }
 
 #[test]
+fn a_place_that_is_laid_is_one_of_the_map_until_it_ends_is_lifted_or_taken_back() {
+    let site = starter();
+    let before = content(&site);
+    let asked = |more: &[&str]| site.adit("route", &[&["home", "charger"], more].concat());
+    asked(&[]).expecting(2).complains(&["charger"]);
+    let shown = site.adit("lay", &["place", "charger", "9,2", "--dry-run"]).expecting(0).stdout;
+    assert!(shown.contains("charger"), "{shown}");
+    assert_eq!(content(&site), before, "nothing was changed");
+    site.adit("lay", &["place", "charger", "9,2", "--until", "2h", "--why", "a new robot"]).expect_status(0);
+    let way = asked(&["--json"]).json();
+    assert_eq!(way["waypoints"].as_array().unwrap().last().unwrap()["x"], 9.0);
+    let kept = "SELECT status, round(cost, 6) FROM route WHERE start = 'home' AND goal = 'charger'";
+    assert_eq!(site.sqlite3(kept), [format!("ok|{}", (way["cost"].as_f64().unwrap() * 1e6).round() / 1e6)]);
+    assert_eq!(site.sqlite3("SELECT x, y FROM places WHERE place = 'charger'"), ["9.0|2.0"]);
+    assert_eq!(site.sqlite3("SELECT count(*) FROM drawn"), ["0"], "a layer of polygons has no points");
+    asked(&["--at", "3h"]).expecting(2).complains(&["charger"]);
+    site.adit("lay", &["obstacle", "crate", "8.5,1.5 9.5,2.5"])
+        .expecting(2)
+        .complains(&["the map's place `charger`"]);
+    site.adit("lay", &["area", "charger", "1,1 2,2"])
+        .expecting(2)
+        .complains(&["the place `charger` lies there already"]);
+    site.adit("lift", &["charger"]).expect_status(0);
+    assert_eq!(content(&site), before);
+    site.adit("undo", &[]).expect_status(0);
+    asked(&[]).expect_status(0);
+    site.adit("undo", &[]).expect_status(0);
+    assert_eq!(content(&site), before);
+}
+
+#[test]
 fn what_was_laid_lies_there_after_the_map_changes_and_counts_for_nothing_where_it_no_longer_fits() {
     let site = starter();
     site.adit("lay", &["obstacle", "shelves", "6.2,2.5 6.4,4.5"]).expect_status(0);
@@ -94,6 +125,10 @@ fn what_cannot_be_laid_is_refused_in_words_and_nothing_is_kept() {
         (&["area", "wet", "1,1 2,2", "--until", "2020-01-01"], "that is over"),
         (&["obstacle", "crate", "1,1 2,2", "--kind", "wet"], "only an area has a kind"),
         (&["obstacle", "crate", "1,1"], "two corners or more"),
+        (&["place", "shelf", "1,1 2,2"], "one point"),
+        (&["place", "shelf", "1,1", "--kind", "wet"], "only an area has a kind"),
+        (&["place", "home", "2,2"], "the map has a place `home` already"),
+        (&["place", "shelf", "6,1"], "lies inside an obstacle of the map"),
         (&["obstacle", "crate", "1,1 2,x"], "is no corner"),
         (&["wall", "crate", "1,1 2,2"], "invalid value 'wall'"),
     ] {

@@ -89,7 +89,17 @@ fn step(chance: &mut Chance) -> Step {
                 Edit::Add("robots".to_owned(), "ROLL".to_owned(), cells)
             }
             1 => Edit::Remove("robots".to_owned(), "ROLL".to_owned()),
-            _ => Edit::Undo(None),
+            _ if chance.is(0.5) => Edit::Undo(None),
+            _ => {
+                let set = |state: &str, value: String| {
+                    let [table, key, column] = texts(["robots", state, "hardness"]);
+                    Edit::Set(table, key, column, value)
+                };
+                Edit::Together(vec![
+                    set("STAND", number(chance, 0.0, 9.0)),
+                    set("SQUAT", number(chance, -1.0, 9.0)),
+                ])
+            }
         }),
         10 => match chance.below(3) {
             0 => Step::File("rules/extra.rhai", Some("// nothing yet".to_owned())),
@@ -122,9 +132,13 @@ fn step(chance: &mut Chance) -> Step {
             Step::Edit(Edit::Close(Close { what, until, only, except, from }))
         }
         12 => {
-            let name = ["pallets", "spill"][chance.below(2)].to_owned();
+            let name = ["pallets", "spill", "charger"][chance.below(3)].to_owned();
             if chance.is(0.3) {
                 return Step::Edit(Edit::Lift(name));
+            }
+            if name == "charger" {
+                let corners = vec![[chance.metres(-0.5, 11.0), chance.metres(-0.5, 7.0)]];
+                return Step::Edit(Edit::Lay(Lay { what: Thing::Place, name, corners, ..Lay::default() }));
             }
             let is_area = name == "spill";
             let (x, y) = (chance.metres(-0.5, 11.0), chance.metres(-0.5, 7.0));

@@ -51,6 +51,10 @@ async fn every_tab(screen: Screen) {
                     browser.says("#preview-summary", "otherwise").await;
                     browser.press("#route .run-more", "Why?").await;
                     browser.find("#why-card .reasons").await;
+                    browser.run("document.querySelector('.row-forms').open = true").await;
+                    browser.click("#draw").await;
+                    browser.type_into("#draw-corners", "1,1 2,2").await;
+                    browser.says("#preview", "needs a name").await;
                 }
                 "rules" => browser.says("#rules .under", "rule").await,
                 "sql" => browser.says("#sql-answer", "rows").await,

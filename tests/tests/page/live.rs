@@ -49,12 +49,18 @@ async fn an_expert_closes_a_door_from_the_map() {
     browser.says("#close-preview", "The way that you look at").await;
     browser.press("#tell-card", "Close door 3").await;
     leads_through_door_5(&browser).await;
-    browser.press("#saved", "Undo").await;
+    // what is closed is opened from where it was closed
+    browser.press("#outline-list", "Show").await;
+    browser.press("#popover", "Open door 3 again").await;
+    browser.says("#close-preview", "The way that you look at").await;
+    browser.press("#tell-card", "Open door 3 again").await;
     browser.says("#route-title", "92.0").await;
+    browser.press("#saved", "Undo").await;
+    leads_through_door_5(&browser).await;
 }
 
 #[tokio::test(flavor = "multi_thread")]
-async fn a_nurse_closes_a_doorway_and_lays_an_area_on_the_page() {
+async fn a_nurse_closes_a_doorway_on_the_page() {
     let (_site, service, browser) = at_a_desk("clinic", "#map?start=dock&goal=ward%2012").await;
     let route = || service.ask("GET", "/api/route?start=dock&goal=ward%2012", None).1;
     let before = route();
@@ -84,18 +90,42 @@ async fn a_nurse_closes_a_doorway_and_lays_an_area_on_the_page() {
     browser.press("#saved", "Undo").await;
     browser.says("#saved", "Taken back").await;
     assert_eq!(route()["cost"], before["cost"]);
+}
 
-    browser.click("nav a[href='#facts']").await;
-    browser.says("#laid-list", "Nothing lies over the map").await;
-    for (field, text) in
-        [("name", "wet floor"), ("kind", "wet"), ("from", "4,0.5"), ("to", "6,1.5"), ("until", "2h")]
-    {
-        browser.type_into(&format!("#lay-{field}"), text).await;
-    }
-    browser.press("#facts", "Lay it").await;
-    browser.says("#laid-list", "wet floor").await;
-    browser.press("#laid-list", "Lift").await;
-    browser.says("#laid-list", "Nothing lies over the map").await;
+#[tokio::test(flavor = "multi_thread")]
+async fn a_doorway_is_closed_from_one_side_on_the_page() {
+    let (_site, service, browser) = at_a_desk("clinic", "#map?start=dock&goal=ward%2012").await;
+    let status = |from: &str, to: &str| {
+        service.ask("GET", &format!("/api/route?start={from}&goal={to}"), None).1["status"].clone()
+    };
+    let route = service.ask("GET", "/api/route?start=dock&goal=ward%2012", None).1;
+    let steps = route["steps"].as_array().unwrap();
+    let doorway = steps.iter().rev().find_map(|step| step["doorway"].as_str()).unwrap().to_owned();
+    browser.click("#outline summary").await;
+    browser.type_into("#outline-search", &format!("{doorway} ")).await;
+    browser.press("#outline-list", "Show").await;
+    browser.press("#popover", &format!("Close {doorway}")).await;
+    browser
+        .run(
+            "const from = document.querySelector('#close-from');
+             from.value = [...from.options].map(({ value }) => value).find((name) => name && name !== 'ward 12');
+             from.dispatchEvent(new Event('input', { bubbles: true }));",
+        )
+        .await;
+    browser.says("#close-preview", "is closed from").await;
+    assert_eq!(status("dock", "ward%2012"), "ok", "nothing is done before it is said");
+    browser.press("#tell-card", &format!("Close {doorway}")).await;
+    browser.says("#saved", "done").await;
+    assert_eq!((status("dock", "ward%2012"), status("ward%2012", "dock")), ("no_route".into(), "ok".into()));
+    browser.screenshot("doorway-one-way").await;
+    browser.click("#outline summary").await;
+    browser.type_into("#outline-search", &format!("{doorway} ")).await;
+    browser.press("#outline-list", "Show").await;
+    browser.says("#popover", "closed from").await;
+    browser.press("#popover", &format!("Open {doorway}")).await;
+    browser.press("#tell-card", &format!("Open {doorway}")).await;
+    browser.says("#saved", "done").await;
+    assert_eq!(status("dock", "ward%2012"), "ok");
 }
 
 #[tokio::test(flavor = "multi_thread")]

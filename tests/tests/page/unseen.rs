@@ -5,6 +5,7 @@ use std::time::Duration;
 use adit_tests::TestSite;
 use adit_tests::browser::{Browser, Screen};
 use adit_tests::lock::Lock;
+use adit_tests::oracle::random::Chance;
 use adit_tests::service::{Service, request};
 use serde_json::json;
 
@@ -109,12 +110,14 @@ async fn save_waits_for_the_preview_of_what_is_typed() {
 #[tokio::test(flavor = "multi_thread")]
 async fn a_preview_out_of_sight_comes_into_sight_before_ctrl_enter_saves() {
     let (site, _service, browser) = at_a_desk("paper", "#map?start=f&goal=e").await;
-    browser.client.set_window_size(1_380, 600).await.unwrap();
+    browser.client.set_window_size(1_380, 380).await.unwrap();
     let cell = hardness_of("SQUAT");
     type_over(&browser, &cell, "3").await;
     until_it_may_be_saved(&browser).await;
-    let is_seen = "(({ top, bottom }) => top >= 0 && bottom <= innerHeight)(document.getElementById('preview-summary').getBoundingClientRect())";
-    browser.run("scrollTo({ top: 0, behavior: 'instant' })").await;
+    let is_seen = "(({ top }, card) => top >= card.top)(document.getElementById('preview-summary').getBoundingClientRect(), document.getElementById('preview-card').getBoundingClientRect())";
+    browser
+        .run("document.getElementById('preview-card').scrollTo({ top: 9_999, behavior: 'instant' })")
+        .await;
     assert_eq!(browser.value(is_seen).await, false);
     browser.ctrl_enter();
     browser.until(is_seen, "the preview is seen").await;
@@ -192,6 +195,10 @@ async fn a_double_click_takes_back_one_fact() {
 async fn a_form_that_is_sent_twice_tells_once() {
     let (_site, service, browser) = at_a_desk("paper", "#facts").await;
     browser.type_into("#fact-object", "3").await;
+    // what is not seen yet is not told
+    browser.run("document.querySelector('.fact-form').requestSubmit()").await;
+    browser.says("#fact-would", "otherwise").await;
+    assert_eq!(service.ask("GET", "/api/facts", None).1["facts"], json!([]));
     browser
         .run("const form = document.querySelector('.fact-form'); form.requestSubmit(); form.requestSubmit()")
         .await;
@@ -201,7 +208,7 @@ async fn a_form_that_is_sent_twice_tells_once() {
     browser.type_into("#outline-search", "door 5").await;
     browser.press("#outline-list", "Show").await;
     browser.press("#popover", "Close door 5").await;
-    browser.find("#close-why").await;
+    browser.says("#close-preview", "otherwise").await;
     browser.run("const form = document.querySelector('#tell-card form'); form.requestSubmit(); form.requestSubmit()").await;
     browser.says("#saved", "done").await;
     tokio::time::sleep(Duration::from_millis(500)).await;
@@ -242,4 +249,79 @@ async fn what_cannot_be_brought_back_is_asked_about_before_it_is_deleted() {
     browser.press("dialog", "Delete them").await;
     browser.says("#experience-said", "deleted").await;
     assert_eq!(kept(), Some(0));
+}
+
+/// Notes of each edit that the page sends what of it is on the screen then.
+const WATCH: &str = "
+    window.sent = [];
+    const send = window.fetch;
+    window.fetch = (path, options) => {
+        if (path === '/api/edits' && options?.method === 'POST') {
+            const { edit } = JSON.parse(options.body);
+            const told = document.getElementById('preview-told');
+            const summary = document.getElementById('preview-summary');
+            window.sent.push({
+                kind: edit.kind,
+                values: (edit.edits ?? [edit]).map((one) => String(one.value)),
+                isSeen: Boolean(told?.checkVisibility() && summary && told.getAttribute('aria-busy') === 'false'),
+                typed: document.querySelector('#preview .typed')?.innerText ?? '',
+            });
+        }
+        return send(path, options);
+    }";
+
+/// Whatever is typed and pressed, and however fast: what is sent was on the screen, with what it would change; what was sent is
+/// what the history has.
+#[tokio::test(flavor = "multi_thread")]
+async fn keys_at_random_save_nothing_that_was_not_previewed() {
+    const ACTIONS: usize = 200;
+    const SAVE: &str = "document.getElementById('save')?.click()";
+    let (site, _service, browser) = at_a_desk("paper", "#map?start=f&goal=e").await;
+    browser.run(WATCH).await;
+    let mut chance = Chance::new(23);
+    for _ in 0..ACTIONS {
+        let state = ["SQUAT", "LIE-FACE-DOWN", "STAND"][chance.below(3)];
+        let number = (1 + chance.below(9)).to_string();
+        match chance.below(12) {
+            of @ 0..=3 => {
+                let script = format!("document.querySelector({:?})?.focus()", hardness_of(state));
+                browser.run(&script).await;
+                if of > 0 {
+                    press(&browser, &format!("\u{e009}a\u{e000}{number}")).await;
+                }
+            }
+            4 => press(&browser, ENTER).await,
+            5 => press(&browser, "\u{e004}").await,
+            6 => press(&browser, "\u{e008}\u{e004}\u{e000}").await,
+            7 => press(&browser, "\u{e00c}").await,
+            8 => press(&browser, "\u{e003}").await,
+            9 => drop(browser.run(SAVE).await),
+            10 => browser.ctrl_enter(),
+            // sometimes one looks before one goes on
+            _ => {
+                tokio::time::sleep(Duration::from_millis(400)).await;
+                browser.run(SAVE).await;
+                // what cannot be saved, as a cell that is no number, would be in the way of all that follows
+                tokio::time::sleep(Duration::from_millis(200)).await;
+                browser.run("document.getElementById('discard')?.click()").await;
+            }
+        }
+    }
+    tokio::time::sleep(Duration::from_millis(500)).await;
+    let sent = browser.value("window.sent").await;
+    let sent: Vec<_> =
+        sent.as_array().expect("the page was not left").iter().filter(|of| of["kind"] != "undo").collect();
+    assert!(!sent.is_empty(), "some of it was saved");
+    for edit in &sent {
+        assert_eq!(edit["isSeen"], true, "{edit:#}");
+        for value in edit["values"].as_array().unwrap() {
+            let arrow = format!("→ {}", value.as_str().unwrap());
+            assert!(edit["typed"].as_str().unwrap().contains(&arrow), "{edit:#}");
+        }
+    }
+    let values: usize = sent.iter().map(|edit| edit["values"].as_array().unwrap().len()).sum();
+    let kept = site.sqlite3(
+        "SELECT count(*) FROM history WHERE id NOT IN (SELECT undone FROM history WHERE undone IS NOT NULL)",
+    );
+    assert_eq!(kept, [values.to_string()], "{sent:#?}");
 }

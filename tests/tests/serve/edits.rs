@@ -45,6 +45,58 @@ fn of_two_experts_the_later_one_is_told_and_nothing_is_lost() {
 }
 
 #[test]
+fn several_edits_are_made_together_or_not_at_all_and_taken_back_in_one_go() {
+    let site = TestSite::example("paper").built();
+    let service = Service::start(&site);
+    let content = || site.sqlite3("SELECT * FROM robots; SELECT name FROM laid");
+    let before = content();
+    let set = |state: &str, value: f64| hardness(state, value)["edit"].clone();
+    let charger = json!({"kind": "lay", "what": "place", "name": "charger", "corners": [[1.0, 1.0]]});
+    let together = |edits: &[serde_json::Value]| {
+        let body = json!({"edit": {"kind": "together", "edits": edits}, "why": "a new charger"});
+        service.ask("POST", "/api/edits", Some(&body))
+    };
+    for refused in [&[set("SQUAT", 2.5), set("LIE-FACE-DOWN", -1.0)][..], &[]] {
+        assert_eq!(together(refused).0, 400);
+        assert_eq!(
+            (content(), site.sqlite3("SELECT count(*) FROM history")),
+            (before.clone(), vec!["0".to_owned()])
+        );
+    }
+    let (status, edited) = together(&[set("SQUAT", 2.5), set("LIE-FACE-DOWN", 9.0), charger]);
+    assert_eq!((status, edited["done"]["parts"].as_array().map(Vec::len)), (200, Some(3)), "{edited}");
+    assert_eq!(site.sqlite3("SELECT count(DISTINCT change_set), count(*) FROM history"), ["1|3"]);
+    assert!(cost(&service, "f", "charger").is_some());
+    let undo = json!({"edit": {"kind": "undo", "edit": edited["done"]["id"]}});
+    let (status, undone) = service.ask("POST", "/api/edits", Some(&undo));
+    assert_eq!((status, &undone["done"]["with"]), (200, &json!(2)), "{undone}");
+    assert_eq!(content(), before);
+}
+
+#[test]
+fn a_preview_of_a_place_compares_the_ways_to_it_and_of_an_end_that_goes_says_that_the_way_is_lost() {
+    let (_site, service) = served("paper");
+    let charger = json!({"kind": "lay", "what": "place", "name": "charger", "corners": [[1.0, 1.0]]});
+    let preview = |edit: &serde_json::Value, goal: &str| {
+        let body = json!({"edits": [edit], "start": "f", "goal": goal, "patience_ms": 10_000});
+        service.ask("POST", "/api/preview", Some(&body))
+    };
+    let (status, shown) = preview(&charger, "charger");
+    assert_eq!((status, &shown["before"]["status"]), (200, &json!("unknown_goal")), "{shown}");
+    assert!(shown["route"]["cost"].is_number(), "{shown}");
+    let routes = &shown["routes"];
+    assert_eq!(
+        (&routes["total"], &routes["changed"], &routes["found"]),
+        (&json!(2), &json!(2), &json!(2)),
+        "{routes}"
+    );
+    assert_eq!(service.ask("POST", "/api/edits", Some(&json!({"edit": charger}))).0, 200);
+    let (status, shown) = preview(&json!({"kind": "lift", "name": "charger"}), "charger");
+    assert_eq!((status, &shown["route"]["status"]), (200, &json!("unknown_goal")), "{shown}");
+    assert_eq!(shown["routes"]["changed"], 0, "that it goes is no change of other routes: {shown}");
+}
+
+#[test]
 fn what_is_refused_changes_nothing() {
     let site = TestSite::example("paper").built();
     let service = Service::start(&site);

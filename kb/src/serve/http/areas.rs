@@ -1,4 +1,4 @@
-//! Areas and obstacles that people lay over the map.
+//! Areas, obstacles and places that people lay over the map.
 
 use std::collections::BTreeMap;
 
@@ -42,7 +42,7 @@ struct NamedArea {
 #[derive(Serialize, ToSchema)]
 struct LaidOf {
     name: String,
-    /// area or obstacle.
+    /// area, obstacle or place.
     what: String,
     kind: Option<String>,
     /// A list of `[x, y]`, metres.
@@ -130,7 +130,7 @@ pub struct AreaBody {
     #[serde(default)]
     what: LaidThing,
     name: String,
-    /// `[x, y]` in metres, in the order in which they follow one another; two are those of a rectangle.
+    /// `[x, y]` in metres, in the order in which they follow one another; two are those of a rectangle, and one is a place.
     corners: Vec<[f64; 2]>,
     /// What is said of an area; `kind` is what it is: `wet`, `keep-out`.
     #[serde(default)]
@@ -146,7 +146,7 @@ pub struct AreaBody {
     why: Option<String>,
 }
 
-/// Lays an area or an obstacle over the map. The same as the edit `lay`.
+/// Lays an area, an obstacle or a place over the map. The same as the edit `lay`.
 #[utoipa::path(post, path = "/api/areas", tag = "facts", request_body = AreaBody,
     responses((status = 200, body = Edited)))]
 pub async fn lay(site: Site, caller: Caller, Body(body): Body<AreaBody>) -> Answered<Json<Edited>> {

@@ -20,8 +20,8 @@ use crate::serve::role::{Caller, Role};
 /// The longest that routes between places are compared.
 const PATIENCE_MS: u64 = 10_000;
 
-/// Edits that one preview may hold.
-const PREVIEWED: usize = 1_000;
+/// Edits that may be previewed or made together.
+const TOGETHER: usize = 1_000;
 
 /// A value as JSON has it: a number, a text, a truth value, or null for none.
 #[derive(Debug, Deserialize)]
@@ -118,7 +118,7 @@ pub enum Wish {
     },
     /// What was closed is open again.
     Open { what: String },
-    /// An area or an obstacle that lies over the map from now on.
+    /// An area, an obstacle or a place that lies over the map from now on.
     Lay(LaidBody),
     /// What no longer lies over the map.
     Lift { name: String },
@@ -148,6 +148,12 @@ pub enum Wish {
         #[serde(default)]
         edit: Option<i64>,
     },
+    /// Several edits in one transaction, which are taken back together.
+    Together {
+        /// In this order; at most 1,000.
+        #[schema(no_recursion)]
+        edits: Vec<Wish>,
+    },
 }
 
 impl Wish {
@@ -160,6 +166,7 @@ impl Wish {
             | Self::Lay(_)
             | Self::Lift { .. }
             | Self::Retract { .. } => Role::Tell,
+            Self::Together { edits } if edits.iter().all(|edit| edit.role() == Role::Tell) => Role::Tell,
             _ => Role::Tune,
         }
     }
@@ -201,6 +208,7 @@ impl Wish {
                 let what = match what {
                     LaidThing::Area => Thing::Area,
                     LaidThing::Obstacle => Thing::Obstacle,
+                    LaidThing::Place => Thing::Place,
                 };
                 let until = until.or(for_seconds.map(|seconds| format!("{seconds} seconds")));
                 let properties = properties.into_iter().map(|(name, value)| (name, value.text())).collect();
@@ -216,18 +224,26 @@ impl Wish {
             }
             Self::Switch { tuning, on } => Edit::Switch(tuning, on),
             Self::Undo { edit } => Edit::Undo(edit),
+            Self::Together { edits } => Edit::Together(all(edits)?),
         })
     }
 }
 
-/// An area or an obstacle that people lay over the map.
+fn all(edits: Vec<Wish>) -> Answered<Vec<Edit>> {
+    if edits.len() > TOGETHER {
+        return Err(Fault::new(Code::ServiceTooMany, format!("up to {TOGETHER} edits go together")));
+    }
+    edits.into_iter().map(Wish::edit).collect()
+}
+
+/// An area, an obstacle or a place that people lay over the map.
 #[derive(Debug, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LaidBody {
     #[serde(default)]
     pub(super) what: LaidThing,
     pub(super) name: String,
-    /// `[x, y]` in metres, in the order in which they follow one another; two are those of a rectangle.
+    /// `[x, y]` in metres, in the order in which they follow one another; two are those of a rectangle, and one is a place.
     pub(super) corners: Vec<[f64; 2]>,
     /// What is said of an area; `kind` is what it is: `wet`, `keep-out`.
     #[serde(default)]
@@ -249,6 +265,8 @@ pub enum LaidThing {
     Area,
     /// Something that no robot comes through.
     Obstacle,
+    /// A named point, from and to which ways lead.
+    Place,
 }
 
 #[derive(Debug, Deserialize, ToSchema)]
@@ -386,7 +404,7 @@ pub async fn preview(site: Site, Body(body): Body<PreviewBody>) -> Answered<Json
     if body.edits.len() > PREVIEWED {
         return Err(Fault::new(Code::ServiceTooMany, format!("a preview holds up to {PREVIEWED} edits")));
     }
-    let edits = body.edits.into_iter().map(Wish::edit).collect::<Answered<Vec<Edit>>>()?;
+    let edits = all(body.edits)?;
     let preview = site.on_fork(move |fork| {
         let mut fork = fork.within(body.within)?;
         if let Some(patience) = body.patience_ms {

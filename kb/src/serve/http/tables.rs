@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use adit_db::relation::{Form, Relation, RelationColumn};
+use adit_db::relation::{Form, Reference, Relation, RelationColumn};
 use adit_db::{Cell, Tx};
 use axum::Json;
 use serde::Serialize;
@@ -35,6 +35,8 @@ struct TableOf {
     overridden: Vec<Overridden>,
     /// What rules conclude of the rows.
     concluded: Vec<ConcludedOf>,
+    /// Columns that name rows of other tables, which such rows go with.
+    refers: Vec<Reference>,
 }
 
 #[derive(Serialize, ToSchema)]
@@ -96,6 +98,7 @@ fn read_all(tx: &mut Tx<'_>) -> Result<TablesAnswer> {
         });
         let mut table = table(&relation, overridden.collect());
         table.concluded = concluded(&derivations, &table);
+        table.refers = tx.references(&name)?;
         tables.push(table);
     }
     Ok(TablesAnswer { generation: generation::read(tx)?, tables })
@@ -123,6 +126,7 @@ fn table(relation: &Relation, overridden: Vec<Overridden>) -> TableOf {
             .collect(),
         overridden,
         concluded: Vec::new(),
+        refers: Vec::new(),
     }
 }
 

@@ -1,0 +1,60 @@
+/** The form beside what is drawn: what it is, how it is called, and where it lies in numbers. */
+
+import { el } from './dom.js';
+import { corners } from './measure.js';
+import { model } from './model.js';
+
+/** What can be drawn. */
+export const WORDS = { area: 'an area', obstacle: 'an obstacle', place: 'a place' };
+
+/** How it is drawn. */
+export const HOW = {
+  rectangle: 'Drag from corner to corner on the map, or press each.',
+  polygon: 'Press corner after corner on the map; drag a corner to move it.',
+  place: 'Press on the map where it is.',
+};
+
+/** Points as they are written: `x,y x,y`; null where that is none. */
+export function points(text) {
+  const pairs = text.trim().split(/\s+/).filter(Boolean).map((pair) => pair.split(',').map(Number));
+  return pairs.every((pair) => pair.length === 2 && pair.every(Number.isFinite)) ? pairs : null;
+}
+
+/** Two corners of a rectangle along the axes, where that is one. */
+export function rectangleOf(outline) {
+  const two = [outline[0], outline[2]];
+  const said = (points) => JSON.stringify(points);
+  const all = outline.length === 4 ? corners(two) : [];
+  return [all, [all[0], all[3], all[2], all[1]]].some((turned) => said(turned) === said(outline)) ? two : null;
+}
+
+/** The fields, and the form with them. `changed`, `done` and `forget` are called when they are. */
+export function fields({ changed, done, forget }) {
+  const option = (from) => Object.entries(from).map(([name, text]) => el('option', { value: name, text }));
+  const on = { input: changed, change: changed };
+  const input = (id, more = {}) => el('input', { id: `draw-${id}`, autocomplete: 'off', spellcheck: 'false', on, ...more });
+  const made = {
+    what: el('select', { id: 'draw-what', on }, ...option(WORDS)),
+    shape: el('select', { id: 'draw-shape', on }, ...option({ rectangle: 'a rectangle', polygon: 'a polygon' })),
+    name: input('name'),
+    kind: input('kind', { list: 'draw-kinds', placeholder: 'keep-out, wet…' }),
+    corners: input('corners', { placeholder: 'x,y x,y', inputmode: 'text' }),
+    until: input('until', { placeholder: 'taken away, 18:00, 2h' }),
+    how: el('p', { class: 'hint', id: 'draw-how' }),
+    size: el('p', { class: 'hint', id: 'draw-size' }),
+  };
+  const label = (text, field) => el('label', {}, `${text} `, field);
+  made.shapeLabel = label('As', made.shape);
+  made.kindLabel = label('Kind', made.kind);
+  const kinds = [...new Set(['keep-out', ...model.map.areas.map(({ kind }) => kind).filter(Boolean)])];
+  made.form = el('form', { id: 'draw-form', class: 'card draw-form', 'aria-label': 'Draw on the map', on: { submit: (event) => { event.preventDefault(); done(); } } },
+    label('Draw', made.what), made.shapeLabel, made.how, label('Name', made.name), made.kindLabel, label('Corners, metres', made.corners), made.size, label('Until', made.until),
+    el('datalist', { id: 'draw-kinds' }, ...kinds.map((kind) => el('option', { value: kind }))),
+    el('div', { class: 'buttons' }, el('button', { type: 'submit', id: 'draw-done', text: 'Done' }), el('button', { type: 'button', id: 'draw-discard', text: 'Discard', on: { click: forget } })));
+  made.form.addEventListener('keydown', (event) => {
+    if (event.key !== 'Escape') return;
+    event.stopPropagation();
+    forget();
+  });
+  return made;
+}

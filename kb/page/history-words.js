@@ -1,0 +1,53 @@
+/** What an entry of the history says, in the words that the page has for such things. */
+
+import { titleOf } from './cells.js';
+import { value } from './format.js';
+import { describe } from './laid.js';
+import { keyName } from './pending.js';
+
+// A row that came or went is kept as an object.
+function rowOf(of) {
+  if (typeof of !== 'string' || !of.startsWith('{')) return of !== null && typeof of === 'object' ? of : null;
+  try {
+    return JSON.parse(of);
+  } catch {
+    return null;
+  }
+}
+
+const plain = (of) => value(of).replaceAll('_', ' ');
+
+/** A fact: `doorway at 5.9,3.5 closed: yes`. */
+export function fact(row) {
+  const what = row.class.toLowerCase().replaceAll('_', ' ').replace(/s$/, '');
+  const point = row.key ? /^-?[\d.]+,-?[\d.]+$/.exec(row.key)?.[0] : `${row.x},${row.y}`;
+  const object = point ? `at ${point}` : row.key;
+  const said = row.kind === 'truth' ? value(Boolean(Number(row.value))) : value(row.value);
+  return `${String(object).startsWith(what) ? '' : `${what} `}${object} ${plain(row.property)}: ${said}`;
+}
+
+const tuningCell = ({ tuning, key, column_name: column }) => `Tuning “${tuning}”: ${keyName(key)} ${plain(column)}`;
+
+function cellOfTuning(entry) {
+  const [tuning, , ...rest] = entry.key.split('/');
+  return tuningCell({ tuning, key: rest.slice(0, -1).join('/'), column_name: rest.at(-1) });
+}
+
+/** By table: what is said of a row that came, and of one that went. */
+const ROWS = {
+  told: [(row) => `Told: ${fact(row)}`, (row) => `No longer told: ${fact(row)}`],
+  laid: [(row) => `New on the map: ${describe(row)}`, (row) => `Taken away: ${describe(row)}`],
+  active_tunings: [({ tuning }) => `Tuning “${tuning}” on`, ({ tuning }) => `Tuning “${tuning}” off`],
+  tuning_cells: [(row) => `${tuningCell(row)} ${value(row.value)}`, (row) => `${tuningCell(row)} as in the tables`],
+};
+
+/** An entry in words. */
+export function words(entry) {
+  const [was, is] = [rowOf(entry.old), rowOf(entry.new)];
+  if (!was && !is) {
+    const what = entry.table === 'tuning_cells' ? cellOfTuning(entry) : `${titleOf(entry.table)}, ${keyName(entry.key)}${entry.column ? ` ${plain(entry.column)}` : ''}`;
+    return `${what} ${value(entry.old)} → ${value(entry.new)}`;
+  }
+  const [comes, goes] = ROWS[entry.table] ?? [() => `New in ${titleOf(entry.table)}: ${keyName(entry.key)}`, () => `Gone from ${titleOf(entry.table)}: ${keyName(entry.key)}`];
+  return is ? comes(is) : goes(was);
+}
