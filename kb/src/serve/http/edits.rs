@@ -401,9 +401,6 @@ pub struct PreviewBody {
 #[utoipa::path(post, path = "/api/preview", tag = "tables", request_body = PreviewBody,
     responses((status = 200, body = Preview)))]
 pub async fn preview(site: Site, Body(body): Body<PreviewBody>) -> Answered<Json<Preview>> {
-    if body.edits.len() > PREVIEWED {
-        return Err(Fault::new(Code::ServiceTooMany, format!("a preview holds up to {PREVIEWED} edits")));
-    }
     let edits = all(body.edits)?;
     let preview = site.on_fork(move |fork| {
         let mut fork = fork.within(body.within)?;
