@@ -104,6 +104,7 @@ impl Fuzz {
     ///
     /// # Panics
     /// As there.
+    #[allow(clippy::print_stdout)] // how much was tried is what a long run is for
     pub fn run_with(
         mut self,
         read: impl Fn(&[u8]) -> bool + Send + 'static,
