@@ -13,7 +13,7 @@ use crate::oracle::random::Chance;
 const SECONDS: f64 = 2.0;
 
 /// How long one text may take, on a machine that has much else to do.
-const PATIENCE: Duration = Duration::from_secs(120);
+const PATIENCE: Duration = Duration::from_mins(2);
 
 /// By how many bytes one text may make the program grow.
 const MEMORY: u64 = 512 << 20;
@@ -97,7 +97,7 @@ impl Fuzz {
     /// # Panics
     /// Where a text makes a reader panic, hang or grow; it is kept in the folder `fuzz` of the target folder.
     pub fn run(self, read: impl Fn(&[u8]) -> bool + Send + 'static) {
-        self.run_with(read, |chance, seed, words| mutated(chance, seed, words));
+        self.run_with(read, mutated);
     }
 
     /// As [`run`](Self::run), for what is no text: `make` makes one of another.
@@ -244,7 +244,7 @@ pub fn mutated(chance: &mut Chance, seed: &[u8], words: &[String]) -> Vec<u8> {
         let at = chance.below(pieces.len());
         match chance.below(12) {
             0..=2 => pieces[at] = like(chance, &pieces[at]),
-            3 | 4 => pieces[at] = words[chance.below(words.len())].clone(),
+            3 | 4 => pieces[at].clone_from(&words[chance.below(words.len())]),
             5 => drop(pieces.remove(at)),
             6 => pieces.insert(at, words[chance.below(words.len())].clone()),
             7 => {
