@@ -1,64 +1,60 @@
 //! The outlines of cells: closed, along their sides, and simplified.
 
-use std::collections::BTreeMap;
-
 use super::{Point, Segment};
 
-/// A corner of cells: column and row of the cell that has it lower left.
-type Corner = (i32, i32);
+/// Columns and rows along the sides that may leave a corner: to the right, up, to the left, down.
+const ALONG: [(i32, i32); 4] = [(1, 0), (0, 1), (-1, 0), (0, -1)];
 
 /// The outlines of the cells of a set, in cells: the set lies left of each; outer ones run counterclockwise, those of
 /// holes clockwise. Cells that touch in a corner only are apart.
 pub fn outlines(columns: usize, rows: usize, is_in: impl Fn(usize, usize) -> bool) -> Vec<Vec<Point>> {
-    let has = |column: i32, row: i32| {
-        (0..columns as i32).contains(&column)
-            && (0..rows as i32).contains(&row)
-            && is_in(column as usize, row as usize)
-    };
-    let mut sides: BTreeMap<Corner, Vec<Corner>> = BTreeMap::new();
-    for row in 0..rows as i32 {
-        for column in (0..columns as i32).filter(|&column| has(column, row)) {
-            let (x, y) = (column, row);
-            let all = [
-                ((x, y - 1), (x, y), (x + 1, y)),
-                ((x + 1, y), (x + 1, y), (x + 1, y + 1)),
-                ((x, y + 1), (x + 1, y + 1), (x, y + 1)),
-                ((x - 1, y), (x, y + 1), (x, y)),
-            ];
-            for (beside, from, to) in all {
-                if !has(beside.0, beside.1) {
-                    sides.entry(from).or_default().push(to);
-                }
+    // for each corner, by columns, a bit for each side that leaves it
+    let mut leaving = vec![0_u8; (columns + 1) * (rows + 1)];
+    let place = |x: usize, y: usize| x * (rows + 1) + y;
+    let mut below = vec![false; columns];
+    for y in 0..=rows {
+        let mut before = false;
+        for (x, below) in below.iter_mut().enumerate() {
+            let here = y < rows && is_in(x, y);
+            if here != *below {
+                leaving[if here { place(x, y) } else { place(x + 1, y) }] |= if here { 1 } else { 1 << 2 };
             }
+            if here != before {
+                leaving[if here { place(x, y + 1) } else { place(x, y) }] |=
+                    if here { 1 << 3 } else { 1 << 1 };
+            }
+            (*below, before) = (here, here);
+        }
+        if before {
+            leaving[place(columns, y)] |= 1 << 1;
         }
     }
     let mut all = Vec::new();
-    while let Some((&start, _)) = sides.first_key_value() {
-        let mut outline = Vec::new();
-        let (mut before, mut at) = (None, start);
-        while let Some(next) = take(&mut sides, before, at) {
-            outline.push(Point::new(f64::from(at.0), f64::from(at.1)));
-            before = Some(at);
-            at = next;
+    for start in 0..leaving.len() {
+        while leaving[start] != 0 {
+            let mut outline = Vec::new();
+            let (mut at, mut side) = (start, None);
+            while let Some(next) = take(&mut leaving[at], side) {
+                outline.push(Point::new((at / (rows + 1)) as f64, (at % (rows + 1)) as f64));
+                let (dx, dy) = ALONG[next];
+                at = at.wrapping_add_signed(dx as isize * (rows as isize + 1) + dy as isize);
+                side = Some(next);
+            }
+            all.push(outline);
         }
-        all.push(outline);
     }
     all
 }
 
 /// The side that goes on from a corner; of two the one to the left, which stays with the same cell.
-fn take(sides: &mut BTreeMap<Corner, Vec<Corner>>, before: Option<Corner>, at: Corner) -> Option<Corner> {
-    let leaving = sides.get_mut(&at)?;
-    let left = |to: &Corner| {
-        let (from, here) = before.map_or(((0, 0), (0, 0)), |from| (from, at));
-        (here.0 - from.0) * (to.1 - at.1) - (here.1 - from.1) * (to.0 - at.0)
-    };
-    let best = (0..leaving.len()).max_by_key(|&place| left(&leaving[place]))?;
-    let to = leaving.swap_remove(best);
-    if leaving.is_empty() {
-        sides.remove(&at);
-    }
-    Some(to)
+fn take(leaving: &mut u8, before: Option<usize>) -> Option<usize> {
+    let left = before.map_or(0, |before| before + 1);
+    let next = [left, left + 3, left + 2, left + 1]
+        .map(|side| side % 4)
+        .into_iter()
+        .find(|side| *leaving & 1 << side != 0)?;
+    *leaving &= !(1 << next);
+    Some(next)
 }
 
 /// A closed outline with fewer corners, none further from what it was than `off` (Douglas and Peucker 1973).
