@@ -42,7 +42,7 @@ pub use layer::KnownLayers;
 pub use narrowest::{Narrowest, narrowest};
 pub use planner::RoomsByState;
 pub use record::{Crossing, Kind, Room, State};
-pub(crate) use transform::squared_gaps;
+pub(crate) use transform::{squared_gaps, squared_gaps_by_rows};
 
 /// Passages from state to state that a floor may have: some gigabyte.
 const PASSAGES: usize = 2_000_000;

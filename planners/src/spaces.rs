@@ -1,16 +1,20 @@
 //! Spaces and doorways: the rooms of a building as people see them, and the openings between them. They depend on walls
 //! only, not on a robot.
 //!
-//! Loose things are taken away ([`clutter`]); openings between tips of walls are closed ([`openings`]); what is left is
-//! parted where the clearance has a narrowing ([`basins`]), for openings without a tip, as at a scanned wall.
+//! Loose things are taken away ([`clutter`]); of the lines across the floor from tips of walls ([`lines`]) some are
+//! openings, and others mouths ([`openings`]); the pieces between them are joined over mouths where they are alike
+//! ([`joined`]), and what is left over goes to those beside it ([`rest`]).
 
-mod basins;
 mod clutter;
 mod doorways;
+mod joined;
+mod lines;
 mod located;
 mod openings;
 mod planner;
 mod record;
+mod rest;
+mod runs;
 
 use geo::Area;
 use rayon::prelude::*;
@@ -19,6 +23,8 @@ use crate::geometry::polygon::to_geo;
 use crate::geometry::{Point, Segment, outline};
 use crate::layers::{Lattice, Solid, squared_gaps};
 use crate::world::{Occupancy, World};
+
+use openings::Openings;
 
 pub(crate) use located::{Located, NEEDS as OF_SPACES};
 pub use planner::SpacesAndDoorways;
@@ -58,11 +64,11 @@ impl Spaces {
         let given = raster(world)?;
         let mut floor = given.clone();
         clutter::clear_away(&mut floor, LOOSE_M);
-        let openings = openings::with_drawn(openings::openings(&floor), drawn(world, &floor), &floor);
-        let mut closed = floor.clone();
-        openings::close(&mut closed, &openings);
-        let of_cell = basins::basins(&floor, &closed);
-        let doorways = doorways::doorways(&floor, &of_cell, &openings);
+        let openings = Openings::of(&floor).with_drawn(drawn(world, &floor), &floor);
+        let mut of_cell = joined::joined(&floor, &openings);
+        rest::flood(&floor, &mut of_cell);
+        rest::absorb(&floor, &mut of_cell);
+        let doorways = doorways::doorways(&floor, &of_cell, &openings.all());
         let spaces = all(&floor, &of_cell);
         let of_cell =
             of_cell.iter().zip(&given.blocked).map(|(of, solid)| if *solid { 0 } else { *of }).collect();

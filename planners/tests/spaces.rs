@@ -55,6 +55,64 @@ fn a_table_in_a_room_parts_nothing() {
     assert_eq!(Spaces::of(&world).unwrap().spaces.len(), 5);
 }
 
+/// A hall of 6 x 6 m from which a corridor of 1.2 x 8 m leads to the right, along its lower wall.
+fn hall_and_corridor() -> World {
+    let mut world = World::empty(Rect::new(0.0, 0.0, 14.0, 6.0));
+    world.obstacles.push(wall(6.0, 1.2, 14.0, 6.0));
+    world
+}
+
+#[test]
+fn a_corridor_ends_where_it_comes_into_a_hall() {
+    let found = Spaces::of(&hall_and_corridor()).unwrap();
+    assert_eq!(found.spaces.len(), 2);
+    let [doorway] = found.doorways.as_slice() else { panic!("{:?}", found.doorways) };
+    assert!(doorway.segment.middle().distance(Point::new(6.0, 0.6)) < 0.15, "{doorway:?}");
+}
+
+#[test]
+fn a_way_around_something_is_of_the_hall_that_it_comes_back_to() {
+    let mut world = World::empty(Rect::new(0.0, 0.0, 10.0, 10.0));
+    // the aisle beneath is half as broad as the floor above
+    world.obstacles.push(wall(3.0, 1.5, 7.0, 6.0));
+    let found = Spaces::of(&world).unwrap();
+    assert_eq!((found.spaces.len(), found.doorways.len()), (1, 0));
+}
+
+#[test]
+fn a_doorway_lies_in_the_middle_of_a_thick_wall_whatever_leads_out_beside_it() {
+    let mut world = World::empty(Rect::new(0.0, 0.0, 10.0, 9.0));
+    for (y, doors) in [(3.0, [2.0, 6.0]), (5.0, [3.0, 7.0])] {
+        let mut from = 0.0;
+        for door in doors {
+            world.obstacles.push(wall(from, y, door, y + 0.4));
+            from = door + 1.0;
+        }
+        world.obstacles.push(wall(from, y, 10.0, y + 0.4));
+    }
+    for (x, y0, y1) in [(4.8, 0.0, 3.0), (4.8, 5.4, 9.0)] {
+        world.obstacles.push(wall(x, y0, x + 0.4, y1));
+    }
+    let found = Spaces::of(&world).unwrap();
+    assert_eq!(found.spaces.len(), 5);
+    let mut middles: Vec<(f64, f64)> =
+        found.doorways.iter().map(|doorway| doorway.segment.middle()).map(|p| (p.x, p.y)).collect();
+    middles.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let expected = [(2.5, 3.2), (3.5, 5.2), (6.5, 3.2), (7.5, 5.2)];
+    assert_eq!(middles.len(), expected.len(), "{middles:?}");
+    for ((x, y), (expected_x, expected_y)) in middles.into_iter().zip(expected) {
+        assert!((x - expected_x).abs() < 0.1 && (y - expected_y).abs() < 0.1, "{x}, {y}");
+    }
+}
+
+#[test]
+fn a_leg_of_a_table_at_a_wall_makes_no_doorway() {
+    let mut world = wards(1.0);
+    world.obstacles.push(wall(0.0, 2.4, 0.2, 2.55));
+    let found = Spaces::of(&world).unwrap();
+    assert_eq!((found.spaces.len(), found.doorways.len()), (5, 4));
+}
+
 #[test]
 fn a_named_door_is_a_doorway_where_it_is_drawn() {
     let mut world = wards(1.0);

@@ -8,11 +8,20 @@ use rayon::prelude::*;
 ///
 /// # Arguments
 /// `has` says of a column and a row whether the set has that cell.
-pub(crate) fn squared_gaps((columns, rows): (usize, usize), has: impl Fn(usize, usize) -> bool) -> Vec<u32> {
-    let set: Vec<bool> = (0..rows)
-        .flat_map(|row| (0..columns).map(move |column| (column, row)))
-        .map(|(x, y)| has(x, y))
-        .collect();
+pub(crate) fn squared_gaps(size: (usize, usize), has: impl Fn(usize, usize) -> bool) -> Vec<u32> {
+    squared_gaps_by_rows(size, has, 1)
+}
+
+/// The same, for the cells of each so manieth row only, from the first one on; 0 in all others.
+pub(crate) fn squared_gaps_by_rows(
+    (columns, rows): (usize, usize),
+    has: impl Fn(usize, usize) -> bool,
+    every: usize,
+) -> Vec<u32> {
+    let mut set = Vec::with_capacity(columns * rows);
+    for row in 0..rows {
+        set.extend((0..columns).map(|column| has(column, row)));
+    }
     if !set.contains(&true) {
         return vec![u32::MAX; columns * rows];
     }
@@ -20,8 +29,22 @@ pub(crate) fn squared_gaps((columns, rows): (usize, usize), has: impl Fn(usize, 
     // grown into its eight neighbours is just that.
     let vertical = vertical_distances((columns, rows), &set);
     let mut squared = vec![0; columns * rows];
-    let lines = squared.par_chunks_mut(columns).zip(vertical.par_chunks(columns));
-    lines.for_each(|(line, vertical)| lower_envelope(vertical, line));
+    let lines = squared.par_chunks_mut(columns).zip(vertical.par_chunks(columns)).step_by(every);
+    lines.for_each_init(Vec::new, |vertices, (line, vertical)| {
+        // what is of the set hides whatever lies beyond it
+        let mut from = 0;
+        while from < columns {
+            let zeros = vertical[from..].iter().take_while(|distance| **distance == 0).count();
+            let between = vertical[from + zeros..].iter().take_while(|distance| **distance > 0).count();
+            let first = (from + zeros).saturating_sub(1).max(from);
+            let end = from + zeros + between;
+            if between > 0 {
+                let to = (end + 1).min(columns);
+                lower_envelope(&vertical[first..to], &mut line[first..to], vertices);
+            }
+            from = end;
+        }
+    });
     squared
 }
 
@@ -29,31 +52,39 @@ pub(crate) fn squared_gaps((columns, rows): (usize, usize), has: impl Fn(usize, 
 fn vertical_distances((columns, rows): (usize, usize), set: &[bool]) -> Vec<i32> {
     let far = (columns + rows) as i32;
     let mut distances = vec![far; columns * rows];
-    for (row, line) in set.chunks(columns).enumerate() {
-        for column in 0..columns {
-            let beside = &line[column.saturating_sub(1)..(column + 2).min(columns)];
-            let below = if row > 0 { distances[(row - 1) * columns + column] + 1 } else { far };
-            distances[row * columns + column] = if beside.contains(&true) { 0 } else { below.min(far) };
+    let mut before = vec![far; columns];
+    for (line, set) in distances.chunks_mut(columns).zip(set.chunks(columns)) {
+        for (here, before) in line.iter_mut().zip(&before) {
+            *here = (before + 1).min(far);
         }
-    }
-    for row in (0..rows.saturating_sub(1)).rev() {
-        for column in 0..columns {
-            let above = distances[(row + 1) * columns + column] + 1;
-            let here = &mut distances[row * columns + column];
-            *here = above.min(*here);
+        // grown along the row
+        let mut free = 0;
+        for part in set.chunk_by(|a, b| a == b) {
+            let end = free + part.len();
+            if part[0] {
+                line[free.saturating_sub(1)..(end + 1).min(columns)].fill(0);
+            }
+            free = end;
         }
+        before.copy_from_slice(line);
     }
-    // grown along the row so far, and by one cell along the column here
-    for distance in distances.iter_mut().filter(|distance| **distance < far) {
-        *distance = (*distance - 1).max(0);
+    before.fill(far);
+    for line in distances.chunks_mut(columns).rev() {
+        for (here, above) in line.iter_mut().zip(&mut before) {
+            let distance = (*above + 1).min(*here);
+            *above = distance;
+            // and here by one cell along the column
+            *here = if distance < far { (distance - 1).max(0) } else { distance };
+        }
     }
     distances
 }
 
 /// Squared distances along one row, given those along the columns: the lower envelope of parabolas.
-fn lower_envelope(vertical: &[i32], squared: &mut [u32]) {
+fn lower_envelope(vertical: &[i32], squared: &mut [u32], vertices: &mut Vec<(usize, i64)>) {
     let value = |x: i64, i: usize| (x - i as i64).pow(2) + i64::from(vertical[i]).pow(2);
-    let mut vertices: Vec<(usize, i64)> = vec![(0, 0)];
+    vertices.clear();
+    vertices.push((0, 0));
     for u in 1..vertical.len() {
         while vertices.last().is_some_and(|&(i, from)| value(from, i) > value(from, u)) {
             vertices.pop();
@@ -99,6 +130,11 @@ mod tests {
                 let naive = walls.iter().map(|&(a, b)| apart(x, a) + apart(y, b)).min();
                 prop_assert_eq!(Some(gap), naive);
             }
+            let third = squared_gaps_by_rows((columns as usize, rows as usize), has, 3);
+            let expected = gaps.iter().enumerate().map(|(cell, gap)| {
+                if (cell / columns as usize).is_multiple_of(3) { *gap } else { 0 }
+            });
+            prop_assert_eq!(third, expected.collect::<Vec<_>>());
         }
     }
 }

@@ -23,6 +23,11 @@ pub fn step((dx, dy): (i32, i32)) -> u32 {
     if dx == 0 || dy == 0 { STRAIGHT } else { DIAGONAL }
 }
 
+/// Where a neighbour of a cell lies among the cells of so many columns, from the cell on.
+pub fn on((dx, dy): (i32, i32), columns: usize) -> isize {
+    dx as isize + dy as isize * columns as isize
+}
+
 /// The least cost of a way over so many columns and rows.
 pub fn least_cost(columns: usize, rows: usize) -> u32 {
     STRAIGHT * columns.max(rows) as u32 + (DIAGONAL - STRAIGHT) * columns.min(rows) as u32

@@ -6,7 +6,6 @@ use petgraph::unionfind::UnionFind;
 
 use super::record::Doorway;
 use crate::geometry::{Point, Segment};
-use crate::search::grid::beside;
 use crate::world::Occupancy;
 
 /// Parts of the border of two spaces so near to each other are one, metres: a table's leg may stand between.
@@ -27,7 +26,8 @@ pub(super) fn doorways(floor: &Occupancy, of_cell: &[u32], openings: &[Segment])
     let middle =
         |cell: usize| Point::new((cell % floor.columns) as f64 + 0.5, (cell / floor.columns) as f64 + 0.5);
     for (cell, &space) in of_cell.iter().enumerate().filter(|(_, space)| **space > 0) {
-        for next in beside(cell, (floor.columns, floor.rows)).filter(|next| *next > cell) {
+        // a floor has a rim of solid cells
+        for next in [cell + 1, cell + floor.columns] {
             let other = of_cell[next];
             if other > 0 && other != space {
                 let pair = (space.min(other), space.max(other));
