@@ -40,7 +40,7 @@ fn a_keepout_mask_closes_a_doorway_until_it_is_another_one() {
     let before = points(&client.plan(&request));
     assert!(before.iter().any(|[x, y]| (33.0..33.4).contains(x) && (8.6..9.5).contains(y)), "{before:?}");
 
-    // doorway 30 is from 33.2,8.725 to 33.2,9.375
+    // doorway 18 is from 33.2,8.7 to 33.2,9.4
     client.latched("publish", "/keepout_filter_mask", GRID, &mask(Some([30, 36, 34, 45])));
     floor.says("the keepout mask is 1 areas of the site: 1 new, 0 taken back");
     let round = points(&client.plan(&request));

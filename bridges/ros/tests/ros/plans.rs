@@ -74,15 +74,15 @@ fn what_is_closed_and_blocked_is_told_to_the_site() {
     let mut client = Client::start("tells");
     let request = json!({"start": pose(4.7, 1.5), "goal": pose(53.8, 14.0)});
     let before = points(&client.plan(&request));
-    client.order("publish", "/adit/close", "std_msgs/msg/String", &json!({"data": "doorway 30"}));
-    floor.says("close `doorway 30`: told to the site");
+    client.order("publish", "/adit/close", "std_msgs/msg/String", &json!({"data": "doorway 18"}));
+    floor.says("close `doorway 18`: told to the site");
     let round = points(&client.plan(&request));
     assert_ne!(round, before);
-    client.order("publish", "/adit/open", "std_msgs/msg/String", &json!({"data": "doorway 30"}));
-    floor.says("open `doorway 30`: told to the site");
+    client.order("publish", "/adit/open", "std_msgs/msg/String", &json!({"data": "doorway 18"}));
+    floor.says("open `doorway 18`: told to the site");
     assert_eq!(points(&client.plan(&request)), before);
 
-    // doorway 30 lies east of here
+    // doorway 18 lies east of here
     let blocked = json!({"header": {"frame_id": "map"},
         "pose": {"position": {"x": 32.7, "y": 9.05}, "orientation": {"w": 1.0}}});
     client.order("publish", "/adit/blocked", "geometry_msgs/msg/PoseStamped", &blocked);

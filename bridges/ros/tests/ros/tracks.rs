@@ -26,7 +26,7 @@ fn a_route_is_followed_to_its_end_and_is_another_one_when_a_doorway_closes() {
     assert_eq!(first["rerouted"], false);
     assert_eq!(points(&first["path"]), floor.waypoints("4.7,1.5", "53.8,14"));
 
-    floor.edit(&json!({"kind": "close", "what": "doorway 30"}));
+    floor.edit(&json!({"kind": "close", "what": "doorway 18"}));
     let second = client.until("another route", |said| is_feedback(said, id))["feedback"].clone();
     assert_eq!(second["rerouted"], true);
     let way = points(&second["path"]);
