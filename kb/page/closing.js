@@ -77,7 +77,7 @@ export function close(edit, label, sides = []) {
   for (const field of [until, only, from]) field.addEventListener('input', would.look);
   would.now();
   async function make() {
-    if (!would.isSeen()) return would.now();
+    if (!would.isReady()) return;
     try {
       const answer = await post('/api/edits', { edit: wish(), why: reason.value.trim() || undefined });
       made.remove();
@@ -86,7 +86,6 @@ export function close(edit, label, sides = []) {
     } catch (error) {
       fill(would.node, said(error));
     }
-    return undefined;
   }
   (ends ? until : reason).focus();
 }

@@ -66,12 +66,12 @@ export function typed(text) {
 }
 
 async function tell() {
-  if (!would.isSeen()) return would.now();
+  if (!would.isReady()) return;
   const told = fact();
   try {
     const answer = await post('/api/facts', { ...told, why: read('why') || undefined });
     byId('fact-object').value = '';
-    fill(would.node);
+    would.forget();
     fill(byId('fact-said'), el('p', { class: 'right', role: 'status', text: 'Told. Routes follow at once.' }));
     showSaved(`Told: ${words({ ...told, key: told.object })}.${andRules([answer])}`, [], { text: 'Take it back', act: () => takeBack(answer.fact) });
     await refresh(answer.generation);
@@ -79,7 +79,6 @@ async function tell() {
   } catch (error) {
     fill(byId('fact-said'), said(error));
   }
-  return undefined;
 }
 
 async function load() {

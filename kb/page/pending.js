@@ -53,11 +53,14 @@ export function keyName(key) {
 
 const KEPT = 'adit-pending';
 
+// Nobody holds the pen any more.
+const putDown = ([id, item]) => [id, item.shape ? { ...item, shape: { ...item.shape, open: false } } : item];
+
 /** Keeps it over a reload of the page, for this site and this tab of the browser. */
 export function keepPending() {
   try {
     const { site, items } = JSON.parse(sessionStorage.getItem(KEPT) ?? '{}');
-    if (site === model.site.name && items?.length) model.set('pending', new Map(items));
+    if (site === model.site.name && items?.length) model.set('pending', new Map(items.map(putDown)));
   } catch {
     sessionStorage.removeItem(KEPT);
   }

@@ -9,30 +9,36 @@ import { summary, thisRoute } from './preview.js';
 const WAIT = 150;
 
 /**
- * Looks ahead: `look` whenever something is typed, `now` at once; `isSeen` says whether what is on the screen is of the edit as it stands.
+ * Looks ahead: `look` whenever something is typed, `now` at once. `isReady` says whether what is on the screen is of the edit as it stands,
+ * and looks ahead where it is not, without holding anybody up; `forget` takes it off the screen.
  * @param {() => Object|null} wish the edit, or null where it is not whole
  */
 export function lookAhead(id, wish) {
   const node = el('div', { id, role: 'status' });
   let [asked, seen] = ['', ''];
+  const show = (text, ...parts) => {
+    fill(node, ...parts);
+    [asked, seen] = ['', text];
+  };
   async function now() {
     const edit = wish();
-    asked = JSON.stringify(edit);
-    if (!edit) return fill(node);
-    const text = asked;
+    if (!edit) return show('');
+    const text = JSON.stringify(edit);
+    asked = text;
     const { start, goal, robot } = model.ask;
     try {
       const answer = await post('/api/preview', { edits: [edit], ...(start && goal ? { start, goal } : {}), ...(robot ? { robot } : {}) });
-      if (asked !== text) return undefined;
-      fill(node, ...(answer.closings ?? []).map((closing) => el('p', { text: `Then: ${closing}.` })), el('p', { text: summary(answer).join(' ') }), thisRoute(answer));
-      seen = text;
+      if (asked === text) show(text, ...(answer.closings ?? []).map((closing) => el('p', { text: `Then: ${closing}.` })), el('p', { text: summary(answer).join(' ') }), thisRoute(answer));
     } catch (error) {
-      if (asked !== text) return undefined;
-      fill(node, said(error));
       // What cannot be looked at in time may be made all the same; what is refused may not.
-      seen = error.status >= 500 ? text : '';
+      if (asked === text) show(error.status >= 500 ? text : '', said(error));
     }
     return undefined;
   }
-  return { node, now, look: debounced(now, WAIT), isSeen: () => seen !== '' && seen === JSON.stringify(wish()) };
+  function isReady() {
+    const text = JSON.stringify(wish());
+    if (seen !== text && asked !== text) now();
+    return seen === text;
+  }
+  return { node, now, look: debounced(now, WAIT), isReady, forget: () => show('') };
 }
