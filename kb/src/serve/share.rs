@@ -266,13 +266,14 @@ mod tests {
 
     #[test]
     fn whoever_comes_last_does_not_wait_for_a_crowd() {
-        let (places, crowd, other) = (Places::new(2, 1), asker("crowd"), asker("other"));
+        let (places, crowd, other, third) =
+            (Places::new(2, 1), asker("crowd"), asker("other"), asker("third"));
         let mut many: Vec<_> = (0..10).map(|_| Box::pin(places.take(&crowd))).collect();
         let mut held: Vec<Place> = many.iter_mut().filter_map(now).collect();
         assert_eq!(held.len(), 1, "one place is left for others");
         let mut first = Box::pin(places.take(&other));
         let got = now(&mut first).expect("it is free");
-        let mut next = Box::pin(places.take(&asker("third")));
+        let mut next = Box::pin(places.take(&third));
         assert!(now(&mut next).is_none());
         drop(got);
         assert!(now(&mut next).is_some(), "before the nine who came earlier");
