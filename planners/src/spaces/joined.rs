@@ -88,7 +88,9 @@ pub(super) fn joined(floor: &Occupancy, found: &Openings) -> Vec<u32> {
         passes.retain(|pass| pass.between[0] != pass.between[1]);
         known.retain(|[one, other], _| ![into, from].iter().any(|piece| piece == one || piece == other));
     }
-    of_cell.iter_mut().for_each(|piece| *piece = number[*piece as usize]);
+    for piece in &mut of_cell {
+        *piece = number[*piece as usize];
+    }
     of_cell
 }
 
@@ -140,7 +142,7 @@ fn passes(closed: &Occupancy, of_cell: &[u32], found: &Openings) -> Vec<Pass> {
         .mouths
         .iter()
         .filter_map(|(line, protrudes)| pass(line, if *protrudes { Kind::WideOpening } else { Kind::Mouth }));
-    mouths.chain(found.openings.iter().filter_map(|line| pass(line, Kind::Opening))).collect()
+    mouths.chain(found.between_tips.iter().filter_map(|line| pass(line, Kind::Opening))).collect()
 }
 
 /// The two pieces to join next; over an opening only when no mouth is left.

@@ -29,7 +29,8 @@ const STEP_CELLS: f64 = 0.5;
 /// Lines that part the floor, in cells.
 #[derive(Default)]
 pub(super) struct Openings {
-    pub openings: Vec<Segment>,
+    /// Between tips of walls.
+    pub between_tips: Vec<Segment>,
     /// Drawn doors: what is drawn parts whatever lies there.
     pub drawn: Vec<Segment>,
     /// Each with whether walls protrude there: it is an opening, and wide.
@@ -70,8 +71,8 @@ impl Openings {
                 mouths.push((line.segment, kind != Kind::Mouth));
             }
         }
-        let openings = passages.iter().map(|passage| passage.middle(floor)).collect();
-        Self { openings, drawn: Vec::new(), mouths }
+        let between_tips = passages.iter().map(|passage| passage.middle(floor)).collect();
+        Self { between_tips, drawn: Vec::new(), mouths }
     }
 
     /// With those that are drawn in the place of those found beside them.
@@ -80,14 +81,14 @@ impl Openings {
             let off = |drawn: &Segment| one.distance(drawn.middle()).min(drawn.distance(one.middle()));
             drawn.iter().any(|drawn| off(drawn) * floor.resolution < BESIDE_M)
         };
-        self.openings.retain(|one| !is_beside(one));
+        self.between_tips.retain(|one| !is_beside(one));
         self.mouths.retain(|(one, _)| !is_beside(one));
         Self { drawn, ..self }
     }
 
     /// What is closed whatever lies beside it, or nearly.
     pub fn closed(&self) -> impl Iterator<Item = &Segment> {
-        self.openings.iter().chain(&self.drawn)
+        self.between_tips.iter().chain(&self.drawn)
     }
 
     pub fn all(&self) -> Vec<Segment> {
