@@ -13,8 +13,8 @@ async fn until_it_may_be_saved(browser: &Browser) {
 
 /// Sends the form of a table by which rows come, or the one by which they go.
 async fn send(browser: &Browser, table: &str, form: usize, values: &[(&str, &str)]) {
-    let fields: String =
-        values.iter().map(|(css, value)| format!("form.querySelector({css:?}).value = {value:?};")).collect();
+    let field = |(css, value): &(&str, &str)| format!("form.querySelector({css:?}).value = {value:?};");
+    let fields = values.iter().map(field).collect::<Vec<String>>().concat();
     let script = format!(
         "const forms = document.querySelector(\"[data-table='{table}'] .row-forms\");
          forms.open = true;
