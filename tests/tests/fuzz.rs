@@ -84,7 +84,7 @@ const MAP: &str = "image: floor.pgm\nresolution: 0.05\norigin: [0.0, 0.0, 0.0]\n
                    occupied_thresh: 0.65\nfree_thresh: 0.196\n";
 
 fn pgm() -> Vec<u8> {
-    let pixel = |at: usize| if at % 7 == 0 { 0 } else { 254 };
+    let pixel = |at: usize| if at.is_multiple_of(7) { 0 } else { 254 };
     [b"P5\n# a floor\n40 30\n255\n".to_vec(), (0..1200).map(pixel).collect()].concat()
 }
 
@@ -140,7 +140,7 @@ fn png_images() {
         let line = 1 + (wide as usize * channels * depth as usize).div_ceil(8);
         let whole = line.saturating_mul(high as usize).min(20_000);
         let count = if chance.is(0.8) { whole } else { chance.below(4_000) };
-        let filter = |at: usize, byte: usize| if at % line == 0 { byte % 5 } else { byte };
+        let filter = |at: usize, byte: usize| if at.is_multiple_of(line) { byte % 5 } else { byte };
         let rows: Vec<u8> = (0..count).map(|at| filter(at, chance.below(256)) as u8).collect();
         let mut data = stored(&rows);
         if chance.below(3) == 0 {
