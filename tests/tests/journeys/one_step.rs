@@ -131,37 +131,40 @@ fn step(chance: &mut Chance) -> Step {
             let from = is_one_way.then(|| ["space 1", "space 2"][chance.below(2)].to_owned());
             Step::Edit(Edit::Close(Close { what, until, only, except, from }))
         }
-        12 => {
-            let name = ["pallets", "spill", "charger"][chance.below(3)].to_owned();
-            if chance.is(0.3) {
-                return Step::Edit(Edit::Lift(name));
-            }
-            if name == "charger" {
-                let corners = vec![[chance.metres(-0.5, 11.0), chance.metres(-0.5, 7.0)]];
-                return Step::Edit(Edit::Lay(Lay { what: Thing::Place, name, corners, ..Lay::default() }));
-            }
-            let is_area = name == "spill";
-            let (x, y) = (chance.metres(-0.5, 11.0), chance.metres(-0.5, 7.0));
-            let [right, above] = [0.3, 0.3].map(|least| chance.metres(least, 2.5));
-            let corners = vec![[x, y], [x + right, y], [x, y + above]];
-            let factor = ("hardness_factor".to_owned(), number(chance, 1.0, 4.0));
-            Step::Edit(Edit::Lay(Lay {
-                what: if is_area { Thing::Area } else { Thing::Obstacle },
-                name,
-                corners,
-                kind: (is_area && chance.is(0.5)).then(|| "keep-out".to_owned()),
-                properties: if !is_area {
-                    Vec::new()
-                } else if chance.is(0.3) {
-                    vec![factor, ("heading".to_owned(), number(chance, 0.0, 360.0))]
-                } else {
-                    vec![factor]
-                },
-                until: chance.is(0.4).then(|| "2030-01-01T12:00:00Z".to_owned()),
-            }))
-        }
+        12 => laid(chance),
         _ => Step::File("map.toml", Some(map(chance.metres(2.0, 4.0)))),
     }
+}
+
+/// Something that is laid over the map, or lifted.
+fn laid(chance: &mut Chance) -> Step {
+    let name = ["pallets", "spill", "charger"][chance.below(3)].to_owned();
+    if chance.is(0.3) {
+        return Step::Edit(Edit::Lift(name));
+    }
+    if name == "charger" {
+        let corners = vec![[chance.metres(-0.5, 11.0), chance.metres(-0.5, 7.0)]];
+        return Step::Edit(Edit::Lay(Lay { what: Thing::Place, name, corners, ..Lay::default() }));
+    }
+    let is_area = name == "spill";
+    let (x, y) = (chance.metres(-0.5, 11.0), chance.metres(-0.5, 7.0));
+    let [right, above] = [0.3, 0.3].map(|least| chance.metres(least, 2.5));
+    let corners = vec![[x, y], [x + right, y], [x, y + above]];
+    let factor = ("hardness_factor".to_owned(), chance.metres(1.0, 4.0).to_string());
+    Step::Edit(Edit::Lay(Lay {
+        what: if is_area { Thing::Area } else { Thing::Obstacle },
+        name,
+        corners,
+        kind: (is_area && chance.is(0.5)).then(|| "keep-out".to_owned()),
+        properties: if !is_area {
+            Vec::new()
+        } else if chance.is(0.3) {
+            vec![factor, ("heading".to_owned(), chance.metres(0.0, 360.0).to_string())]
+        } else {
+            vec![factor]
+        },
+        until: chance.is(0.4).then(|| "2030-01-01T12:00:00Z".to_owned()),
+    }))
 }
 
 /// Two rooms, a doorway, a low pipe that somebody moved.

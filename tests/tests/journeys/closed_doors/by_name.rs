@@ -459,7 +459,7 @@ fn an_area_is_closed_to_one_robot_and_who_is_in_it_comes_out() {
     site.write("map.toml", "width = 12.0\ndepth = 8.0\n[[place]]\nname = \"home\"\nat = [1.0, 4.0]\n");
     site.write("robots.toml", TWO_ROBOTS);
     let area = "[[area]]\nname = \"east\"\nrect = [6.5, 0.0, 12.0, 8.0]\n";
-    site.write("site.toml", &format!("map = \"map.toml\"\nrobots = \"robots.toml\"\n{area}"));
+    site.write("site.toml", format!("map = \"map.toml\"\nrobots = \"robots.toml\"\n{area}"));
     let site = site.built();
     let said = site.adit("close", &["east", "--only", "cart"]).expecting(0).stdout;
     assert!(
