@@ -9,7 +9,7 @@ use crate::knowledge::told::Object;
 use crate::words::number::number;
 
 /// A robot that is blocked stands at most so far before a doorway, or in it, metres.
-const BEFORE_M: f64 = 1.5;
+const BEFORE_M: f64 = 1.75;
 
 /// What blocks a robot in no doorway is so far ahead of its middle, metres, where there is room.
 const AHEAD_M: f64 = 0.5;
