@@ -84,7 +84,7 @@ impl Building {
             _ if doorway.closed == Some(true) => "closed".to_owned(),
             None => "open".to_owned(),
             Some(from) if self.one_way(doorway).is_some() => format!("closed from {from}"),
-            Some(from) => format!("closed: from `{from}`, which does not lie beside it"),
+            Some(from) => format!("closed both ways: `{from}` does not lie on one side of it"),
         }
     }
 
@@ -188,22 +188,38 @@ impl Building {
     }
 
     /// Where a doorway that is closed from one side lies, with that side to its left. `None` where it is closed to everybody,
-    /// as it is, too, if the space from which it is closed does not lie beside it.
+    /// as it is, too, if the space from which it is closed does not lie on one side of it, and the other space on the other.
     pub fn one_way(&self, doorway: &Doorway) -> Option<Segment> {
         let from = doorway.closed_from.as_deref().filter(|_| doorway.closed != Some(true))?;
-        let space = self.space_named(from).filter(|space| joins(doorway, space))?;
+        let from = self.space_named(from).filter(|space| joins(doorway, space))?.space;
+        let other = if doorway.space1 == from { doorway.space2 } else { doorway.space1 };
+        let [from, other] = [self.sides_of(from)?, self.sides_of(other)?];
         let segment = Self::segment(doorway);
-        let rings: Vec<Vec<[f64; 2]>> = serde_json::from_str(&space.outline).ok()?;
-        let rings: Vec<Vec<Point>> =
-            rings.iter().map(|ring| ring.iter().map(|&[x, y]| Point::new(x, y)).collect()).collect();
-        let holds = |p: Point| polygon::encloses(rings.iter().flat_map(|ring| polygon::sides(ring)), p);
         let (middle, across) = (segment.middle(), segment.direction().perpendicular());
         // outlines may keep off a doorway's line by some cells
-        OFF_M.into_iter().find_map(|off| match [off, -off].map(|off| holds(middle + across * off)) {
-            [true, false] => Some(segment),
-            [false, true] => Some(segment.reversed()),
-            _ => None,
+        OFF_M.into_iter().find_map(|off| {
+            let [left, right] = [off, -off].map(|off| {
+                let holds =
+                    |space: &[Segment]| polygon::encloses(space.iter().copied(), middle + across * off);
+                [holds(&from), holds(&other)]
+            });
+            match (left, right) {
+                ([true, false], [false, true]) => Some(segment),
+                ([false, true], [true, false]) => Some(segment.reversed()),
+                _ => None,
+            }
         })
+    }
+
+    /// The sides of a space's outline.
+    fn sides_of(&self, number: i64) -> Option<Vec<Segment>> {
+        let place = self.spaces.binary_search_by_key(&number, |space| space.space).ok()?;
+        let rings: Vec<Vec<[f64; 2]>> = serde_json::from_str(&self.spaces[place].outline).ok()?;
+        let sides = |ring: Vec<[f64; 2]>| {
+            let corners: Vec<Point> = ring.into_iter().map(|[x, y]| Point::new(x, y)).collect();
+            polygon::sides(&corners).collect::<Vec<_>>()
+        };
+        Some(rings.into_iter().flat_map(sides).collect())
     }
 }
 
