@@ -242,3 +242,39 @@ fn ends_of(doorway: &Doorway) -> [f64; 4] {
 fn is_numbered(name: &str, kind: &str, number: i64) -> bool {
     name.strip_prefix(kind).is_some_and(|rest| rest.trim() == number.to_string())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A doorway at x = 4, closed from the hall, which lies west of it, and the ward from `x0` to `x1`.
+    fn floor([x0, x1]: [f64; 2]) -> Building {
+        let space = |number, name: &str, [x0, x1]: [f64; 2]| Space {
+            space: number,
+            name: Some(name.to_owned()),
+            outline: format!("[[[{x0},0],[{x1},0],[{x1},6],[{x0},6]]]"),
+            ..Space::default()
+        };
+        let ends = Doorway { x0: 4.0, y0: 2.0, x1: 4.0, y1: 3.0, ..Doorway::default() };
+        let closed_from = Some("hall".to_owned());
+        let doorway = Doorway { doorway: 1, space1: 1, space2: 2, closed_from, ..ends };
+        let spaces = vec![space(1, "hall", [0.0, 4.0]), space(2, "ward", [x0, x1])];
+        Building { spaces, doorways: vec![doorway], ..Building::default() }
+    }
+
+    #[test]
+    fn what_is_closed_from_one_side_has_that_side_to_its_left() {
+        let building = floor([4.0, 9.0]);
+        let segment = building.one_way(&building.doorways[0]).expect("its sides are told apart");
+        assert!(segment.direction().y > 0.0, "west is to the left of who looks north");
+        assert!(building.why_closed(1).ends_with("is closed from hall"), "{}", building.why_closed(1));
+    }
+
+    #[test]
+    fn a_doorway_whose_sides_cannot_be_told_apart_is_closed_both_ways_and_says_so() {
+        let building = floor([1.0, 4.0]);
+        assert_eq!(building.one_way(&building.doorways[0]), None);
+        let why = building.why_closed(1);
+        assert!(why.ends_with("is closed both ways: `hall` does not lie on one side of it"), "{why}");
+    }
+}
