@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
 use std::mem::take;
 
+use super::clutter::clear_away;
 use super::openings::{Openings, close};
 use super::rest::{NONE, flood};
 use super::runs::touching;
@@ -33,6 +34,9 @@ const WIDER_THAN_BROAD: f64 = 1.3;
 /// Breadth is looked for as near as so many widths of the mouth.
 const REACH: f64 = 4.0;
 
+/// What stands alone and is no larger, metres, makes nothing narrow: a hall with a pillar is as broad as one without.
+const STANDS_ALONE_M: f64 = 2.5;
+
 /// Where breadth is looked for, metres from each other.
 const SAMPLE_M: f64 = 0.15;
 
@@ -40,8 +44,16 @@ const SAMPLE_M: f64 = 0.15;
 #[derive(Clone, Default)]
 struct Piece {
     cells: f64,
-    /// Some of its cells, each with its distance from walls and openings, in cells.
-    samples: Vec<(Point, f64)>,
+    samples: Vec<Sample>,
+}
+
+/// A cell of a piece, with distances from walls and openings, in cells.
+#[derive(Clone, Copy)]
+struct Sample {
+    at: Point,
+    clear: f64,
+    /// Were there nothing that stands alone.
+    swept: f64,
 }
 
 /// A line between two pieces.
@@ -71,7 +83,10 @@ pub(super) fn joined(floor: &Occupancy, found: &Openings) -> Vec<u32> {
     close(&mut closed, found.closed());
     let mut cut = closed.clone();
     close(&mut cut, found.mouths.iter().map(|(mouth, _)| mouth));
-    let (mut of_cell, mut pieces) = pieces(&closed, &cut);
+    let mut swept = floor.clone();
+    clear_away(&mut swept, STANDS_ALONE_M);
+    close(&mut swept, found.closed());
+    let (mut of_cell, mut pieces) = pieces([&closed, &swept], &cut);
     flood(&closed, &mut of_cell);
     let mut passes = passes(&closed, &of_cell, found);
     let mut number: Vec<u32> = (0..pieces.len() as u32).collect();
@@ -95,11 +110,12 @@ pub(super) fn joined(floor: &Occupancy, found: &Openings) -> Vec<u32> {
 }
 
 /// For each cell the number of its piece, from 1, and the pieces, of which the first is none.
-fn pieces(closed: &Occupancy, cut: &Occupancy) -> (Vec<u32>, Vec<Piece>) {
+fn pieces([closed, swept]: [&Occupancy; 2], cut: &Occupancy) -> (Vec<u32>, Vec<Piece>) {
     let columns = closed.columns;
     let every = (SAMPLE_M / closed.resolution).round().max(1.0) as usize;
-    let is_blocked = |column, row| closed.is_blocked(column, row);
-    let gaps = squared_gaps_by_rows((columns, closed.rows), is_blocked, every);
+    let [clear, broad] = [closed, swept].map(|floor| {
+        squared_gaps_by_rows((columns, floor.rows), |column, row| floor.is_blocked(column, row), every)
+    });
     let (runs, of_run) = touching(cut, false, false);
     let mut of_cell = vec![NONE; cut.blocked.len()];
     let mut pieces = vec![Piece::default(); of_run.iter().max().map_or(1, |most| most + 2)];
@@ -109,8 +125,9 @@ fn pieces(closed: &Occupancy, cut: &Occupancy) -> (Vec<u32>, Vec<Piece>) {
         piece.cells += (run.end - run.first) as f64;
         if run.row.is_multiple_of(every) {
             for column in (run.first.next_multiple_of(every)..run.end).step_by(every) {
-                let middle = Point::new(column as f64 + 0.5, run.row as f64 + 0.5);
-                piece.samples.push((middle, f64::from(gaps[row + column]).sqrt() + 0.5));
+                let at = Point::new(column as f64 + 0.5, run.row as f64 + 0.5);
+                let [clear, swept] = [&clear, &broad].map(|gaps| f64::from(gaps[row + column]).sqrt() + 0.5);
+                piece.samples.push(Sample { at, clear, swept });
             }
         }
     }
@@ -193,9 +210,10 @@ fn most_alike(
 /// How many times as broad one of two pieces is as the other, if they are joined.
 fn unlike(two: [&Piece; 2], mouths: &Mouths) -> Option<f64> {
     let width = mouths.lines.iter().map(Segment::length).fold(0.0, f64::max);
-    let breadths = two.map(|piece| piece.breadth_near(&mouths.lines, width));
-    let (narrow, broad) = if breadths[0] < breadths[1] { (0, 1) } else { (1, 0) };
-    let unlike = breadths[broad] / breadths[narrow];
+    let breadths = two.map(|piece| piece.breadth_near(&mouths.lines, width, |sample| sample.clear));
+    let swept = two.map(|piece| piece.breadth_near(&mouths.lines, width, |sample| sample.swept));
+    let (narrow, broad) = if swept[0] < swept[1] { (0, 1) } else { (1, 0) };
+    let unlike = swept[broad] / swept[narrow];
     let is_niche = two[narrow].cells < NICHE * breadths[narrow].powi(2);
     let is_aisle = mouths.lines.len() > 1 && unlike < AISLE;
     let least = if mouths.kind == Kind::WideOpening { NARROW_BESIDE_WALLS } else { NARROW };
@@ -205,12 +223,13 @@ fn unlike(two: [&Piece; 2], mouths: &Mouths) -> Option<f64> {
 
 impl Piece {
     /// The breadth that it comes to near some lines, as if they were walls, in cells; no less than they are wide.
-    fn breadth_near(&self, lines: &[Segment], width: f64) -> f64 {
-        let most = self.samples.iter().fold(width / 2.0, |most, &(p, clear)| {
+    fn breadth_near(&self, lines: &[Segment], width: f64, clear: impl Fn(&Sample) -> f64) -> f64 {
+        let most = self.samples.iter().fold(width / 2.0, |most, sample| {
+            let clear = clear(sample);
             if clear <= most {
                 return most;
             }
-            let off = lines.iter().map(|line| line.distance(p)).fold(f64::INFINITY, f64::min);
+            let off = lines.iter().map(|line| line.distance(sample.at)).fold(f64::INFINITY, f64::min);
             if off <= REACH * width { most.max(clear.min(off)) } else { most }
         });
         2.0 * most
@@ -218,7 +237,7 @@ impl Piece {
 
     /// The breadth that it comes to anywhere.
     fn breadth_behind(&self, line: &Segment) -> f64 {
-        let clears = self.samples.iter().map(|&(p, clear)| clear.min(line.distance(p) + 0.5));
+        let clears = self.samples.iter().map(|of| of.clear.min(line.distance(of.at) + 0.5));
         2.0 * clears.fold(0.5, f64::max)
     }
 }

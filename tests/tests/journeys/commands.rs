@@ -108,7 +108,7 @@ const PAGES: [Page; 24] = [
     },
     Page {
         file: "manual/src/asking-why.md",
-        blocks: &[("Walk-on-knee in lobby", Use::Shown), ("distance,measured", Use::File("runs.csv"))],
+        blocks: &[("Walk-on-knee in corridor 15", Use::Shown), ("distance,measured", Use::File("runs.csv"))],
         databases: &[],
     },
     Page {

@@ -56,7 +56,7 @@ fn the_way_across_the_clinic_is_the_one_that_is_shown() {
 fn why_the_way_across_the_clinic_is_as_it_is_is_shown() {
     let said =
         TestSite::example("clinic").built().adit("why", &["dock", "ward 12"]).expecting(0).stdout.clone();
-    assert_eq!(said, block("manual/src/asking-why.md", "text", "Walk-on-knee in lobby"));
+    assert_eq!(said, block("manual/src/asking-why.md", "text", "Walk-on-knee in corridor 15"));
 }
 
 #[test]
