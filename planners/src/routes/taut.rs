@@ -566,12 +566,20 @@ impl<'g> Search<'g> {
     /// Points of a segment from which the search goes on into a room: the one nearest to the root, those nearest to
     /// goals in the room, the ends, and some between.
     fn points(&self, room: RoomIndex, seen: Segment, root: Point) -> Vec<Point> {
-        let pieces = (seen.length() / APART_M).ceil().clamp(1.0, 64.0) as u32;
-        let feet = self.targets_in(room).filter_map(|target| target.at.map(|at| seen.nearest_to(at)));
-        let even = (0..=pieces).map(|piece| seen.at(f64::from(piece) / f64::from(pieces)));
-        let mut points: Vec<Point> = Vec::new();
-        for p in std::iter::once(seen.nearest_to(root)).chain(feet).chain(even) {
-            if !points.iter().any(|known| known.distance(p) <= EPSILON) {
+        let length = seen.length();
+        let mut points = vec![seen.nearest_to(root)];
+        let is_among = |points: &[Point], p: Point| points.iter().any(|known| known.distance(p) <= EPSILON);
+        for at in self.targets_in(room).filter_map(|target| target.at) {
+            let foot = seen.nearest_to(at);
+            if !is_among(&points, foot) {
+                points.push(foot);
+            }
+        }
+        let pieces = if length <= EPSILON { 0 } else { (length / APART_M).ceil().clamp(1.0, 64.0) as u32 };
+        // these are apart from each other
+        let others = points.len();
+        for p in (0..=pieces).map(|piece| seen.at(f64::from(piece) / f64::from(pieces.max(1)))) {
+            if !is_among(&points[..others], p) {
                 points.push(p);
             }
         }

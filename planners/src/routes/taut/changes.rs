@@ -17,20 +17,24 @@ impl Search<'_> {
             return;
         }
         let (here, there) = (graph.per_m(node.room), graph.per_m(room));
+        let at_once = graph.passage(door).filter(|_| !is_in_steps);
         let reach = |search: &mut Self, p: Point| {
-            if graph.is_on_wall(room, p) {
-                return;
-            }
             let cost = node.cost + node.root.distance(p) * here;
+            let is_vain = |search: &Self, weight: f64| {
+                let limit = cost + weight + EPSILON;
+                search.is_cheaper_in(room, p, limit, there)
+                    || is_cheaper_from(&search.offered[room.index()], p, limit, there)
+            };
             // reached at less cost otherwise
-            if search.is_cheaper_in(node.room, p, cost - EPSILON, here) {
+            if at_once.is_some_and(|weight| is_vain(search, weight))
+                || search.is_cheaper_in(node.room, p, cost - EPSILON, here)
+                || graph.is_on_wall(room, p)
+            {
                 return;
             }
             let changes = search.changes_at(p, node.room, exit);
             let Some(weight) = changes.last().map(|(_, weight)| *weight) else { return };
-            let is_vain = search.is_cheaper_in(room, p, cost + weight + EPSILON, there)
-                || is_cheaper_from(&search.offered[room.index()], p, cost + weight + EPSILON, there);
-            if !is_vain {
+            if at_once.is_some() || !is_vain(search, weight) {
                 search.offered[room.index()].push((p, cost + weight));
                 let last = search.all_but_the_last(index, (p, cost), &changes);
                 search.push(last);
@@ -43,15 +47,17 @@ impl Search<'_> {
         if is_at_once && area.contains(node.root) {
             reach(self, node.root);
         }
+        // who starts or ends in a strip too thin for gates changes at its edge
         let is_anywhere = self.freely.contains(room.index()) || node.before == NO_NODE;
-        for side in graph.sides(door, room) {
-            // who starts or ends in a strip too thin for gates changes at its edge
-            if !is_anywhere && !self.is_near_a_goal_in(room, &side) {
-                continue;
-            }
-            let Some(seen) = node.view.of(node.root, side) else { continue };
-            for p in self.points(room, seen, node.root) {
-                reach(self, p);
+        if is_anywhere || self.targets_in(room).next().is_some() {
+            for side in graph.sides(door, room) {
+                if !is_anywhere && !self.is_near_a_goal_in(room, &side) {
+                    continue;
+                }
+                let Some(seen) = node.view.of(node.root, side) else { continue };
+                for p in self.points(room, seen, node.root) {
+                    reach(self, p);
+                }
             }
         }
         if self.freely.contains(room.index()) {
