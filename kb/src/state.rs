@@ -10,6 +10,7 @@ mod planned;
 pub(crate) mod rows;
 mod spaces;
 mod step;
+pub(crate) mod tunable;
 mod twin;
 pub mod weighed;
 pub(crate) mod weights;
@@ -69,6 +70,8 @@ pub struct State {
     pub generation: u64,
     /// Routes between places, as far as anybody asked for them.
     pub(crate) known: Arc<Known>,
+    /// What cells of tables weigh, as far as anybody asked for reasons.
+    pub(crate) tunable: Arc<tunable::Courses>,
     pub(crate) patience: Duration,
     /// How far ends of routes may be moved to where something fits, metres; `None`: not at all.
     pub(crate) within: Option<f64>,
@@ -98,6 +101,7 @@ impl State {
             pending: None,
             generation: 0,
             known: Arc::default(),
+            tunable: Arc::default(),
             patience: PATIENCE,
             within: None,
         }
@@ -120,6 +124,7 @@ impl State {
             pending: None,
             generation: self.generation,
             known: Arc::clone(&self.known),
+            tunable: Arc::clone(&self.tunable),
             patience: self.patience,
             within: self.within,
         }

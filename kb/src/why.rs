@@ -7,6 +7,7 @@ mod facts;
 pub mod firm;
 pub mod hindered;
 mod meant;
+mod probe;
 mod said;
 pub(crate) mod subject;
 mod told;

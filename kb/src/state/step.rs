@@ -77,6 +77,7 @@ impl State {
     }
 
     fn follow(&mut self, mut told: Told, recall: &mut dyn Recall, progress: &dyn Progress) -> Result<Step> {
+        self.tunable = Arc::default();
         let inputs = Arc::clone(&self.inputs);
         if !has_same_columns(&self.told, &told) {
             self.site.vet(&inputs.rules, &inputs.tests, &told)?;

@@ -14,11 +14,8 @@
 //! that other rows of its column have. Where they are not, values are tried and halved, and [`Found::is_exact`] is false.
 
 mod end;
-mod levers;
-mod linear;
 mod others;
 mod path;
-mod probe;
 pub mod same_way;
 mod straight;
 pub mod through;
@@ -26,9 +23,8 @@ mod turn;
 pub mod without;
 mod words;
 
-pub use end::{Contrast, End, Found, Look, Side, Takeover, least};
+pub use end::{Contrast, End, Found, Known, Look, Takeover};
 pub use others::{Beside, Choice, Ways, is_best};
 pub use path::{Path, Routes};
-pub use probe::{Lever, Probe, Prober, Weights};
-pub use turn::{Course, Turn};
+pub use turn::Turn;
 pub use words::{actions, instead};

@@ -12,8 +12,10 @@ use crate::answer;
 use crate::error::{Code, Error, Result};
 use crate::live::Live;
 use crate::state::State;
+use crate::state::tunable::{Lever, Side, least};
 use crate::why::contrast::same_way::SameWay;
-use crate::why::contrast::{Choice, Course, Found, Lever, Prober, Routes, Side, Turn, least};
+use crate::why::contrast::{Choice, Found, Routes, Turn};
+use crate::why::probe::Prober;
 use crate::words::suggest::did_you_mean;
 pub use beyond::Beyond;
 
@@ -91,10 +93,8 @@ impl State {
         let Some(path) = routes.best(&prober.present, f64::INFINITY) else { return Ok(firm) };
         firm.cost = Some(best.driven.cost);
         let same = SameWay::new(&prober, &routes, path);
-        let levers = prober.levers()?;
+        let courses = prober.courses()?;
         let mut turn = Turn::new(&mut prober, &same);
-        let courses: Result<Vec<Course>> = levers.into_iter().map(|lever| turn.course(lever)).collect();
-        let courses = courses?;
         let never = turn.without_end_below(&courses, None);
         let mut found = Vec::new();
         for (course, never) in courses.iter().zip(never).filter(|(course, _)| course.weighs) {

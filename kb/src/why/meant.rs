@@ -51,8 +51,15 @@ impl State {
             if heading.is_some() {
                 return self.ahead(what, (at, heading));
             }
+            let via = self.by_point(at, robot);
+            if let Via::Rooms(rooms) = &via
+                && let [room] = rooms.iter().copied().collect::<Vec<_>>().as_slice()
+            {
+                // nothing is asked but whether its room is passed, so that is what is said
+                return self.through_subject(&format!("room {}", graph[*room].name));
+            }
             let name = format!("{},{}", number(at.x), number(at.y));
-            return Ok(meant(&name, self.by_point(at, robot)));
+            return Ok(meant(&name, via));
         }
         let named = self.named();
         Ok(match named.class_of(what) {

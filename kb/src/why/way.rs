@@ -12,13 +12,15 @@ use adit_planners::routes::DoorIndex;
 use serde::Serialize;
 
 use super::contrast::without::Without;
-use super::contrast::{Beside, Choice, Lever, Prober, Routes, Side, Turn, is_best};
+use super::contrast::{Beside, Choice, Routes, Turn, is_best};
 use super::hindered::{Driven, Hindered};
 use crate::answer;
 use crate::error::Result;
 use crate::graph::SiteGraph;
 use crate::live::Live;
 use crate::state::State;
+use crate::state::tunable::{Lever, Side};
+use crate::why::probe::Prober;
 use crate::why::why_not::failures;
 use parts::{Ease, Manner, Part, is_at, parts, spaces_of};
 
@@ -217,10 +219,12 @@ impl Holds {
             }
         };
         let beside = Beside::new(routes, others);
-        let levers = prober.levers_in("ROBOTS")?;
-        for lever in levers.iter().filter(|lever| is_own(lever, &prober.fork)).cloned().collect::<Vec<_>>() {
+        let courses = prober.courses_in("ROBOTS")?;
+        for course in courses {
+            if !is_own(&course.lever, &prober.fork) {
+                continue;
+            }
             let mut turn = Turn::new(prober, &beside);
-            let course = turn.course(lever)?;
             let lever = &course.lever;
             let sides = [turn.end(&course, Side::Below, None)?, turn.end(&course, Side::Above, None)?];
             let exact = sides.iter().all(|side| side.is_exact);

@@ -8,17 +8,21 @@ mod words;
 
 pub(super) use words::failures;
 
+use std::sync::Arc;
+
 use adit_engine::Rejected;
 use serde::Serialize;
 
 use super::contrast::through::Through;
-use super::contrast::{Beside, Choice, Course, Path, Prober, Routes, Side, Turn, Ways, is_best};
+use super::contrast::{Beside, Choice, Path, Routes, Turn, Ways, is_best};
 use super::meant::Meant;
 use crate::answer::{self, Answer};
 use crate::error::Result;
 use crate::live::Live;
 use crate::state::State;
+use crate::state::tunable::{Course, Side};
 use crate::why::Reasoned;
+use crate::why::probe::Prober;
 use crate::why::subject::Subject;
 
 /// Why a route does not lead through something.
@@ -38,6 +42,9 @@ pub struct WhyNot {
     pub best: Option<f64>,
     /// Cost of the best route found through that; `None`: none leads there and on.
     pub cost: Option<f64>,
+    /// What both cost as they are driven, farther off walls, where `best` and `cost` are what they cost close to walls: it is by
+    /// that that ways are chosen, and the other one may cost no more than the best when both are driven.
+    pub driven: Option<[f64; 2]>,
     /// In a few words.
     pub reason: String,
     /// With numbers: what it would cost, what would be done instead of what, and what would have to be otherwise.
@@ -98,14 +105,19 @@ impl State {
         let ends = (&routes.start, &routes.goal);
         let graph = self.graph().graph();
         let best = Choice::among(&routes, graph);
-        let (passing, way) = Through::new(graph, ends, meant.via.clone());
-        let is_driven = |way: &Choice| passing.holds_way(&way.driven);
+        let (passing, found) = Through::new(graph, ends, meant.via.clone());
+        let is_driven = |way: &Choice| passing.holds_way(graph, &way.driven);
         // farther off walls it may lead past
         let tightly = |way: Choice| Choice { driven: way.tight.clone(), ..way };
         let led = best.clone().filter(is_driven);
         let is_led = led.is_some();
-        let way = led.or_else(|| way.map(|way| if is_driven(&way) { way } else { tightly(way) }));
+        let touched = best.clone().filter(|best| !is_led && passing.holds_way(graph, &best.tight));
+        let way = led.or(touched.map(tightly));
+        let found = found.map(|way| if is_driven(&way) { way } else { tightly(way) });
+        let way = way.or(found);
         let costs = Choice::costs(best.as_ref(), way.as_ref());
+        let driven = best.as_ref().zip(way.as_ref()).filter(|(best, way)| best.is_chosen_close_to_walls(way));
+        let driven = driven.map(|(best, way)| [best, way].map(|way| way.driven.cost));
         let reason = words::reason(&self, &meant, &routes, (start, goal), (costs.0, costs.1, is_led));
         let answer = |way: &Choice| -> Result<Answer> {
             let mut answer = Answer::blank(&robot, start, &[goal.to_owned()], self.generation);
@@ -126,6 +138,7 @@ impl State {
             through: meant.name.clone(),
             best: costs.0,
             cost: costs.1,
+            driven,
             sentence: reason.clone(),
             reason,
             deciding: Vec::new(),
@@ -189,15 +202,13 @@ impl WhyNot {
 /// The cell that has to change least, as a share of what it is, for a way through to cost no more than any other; and
 /// whether time was over before all were looked at.
 fn would_win(prober: &mut Prober, routes: &Routes, others: &dyn Ways) -> Result<(Option<WouldWin>, bool)> {
-    let levers = prober.levers()?;
+    let courses = prober.courses()?;
     let beside = Beside::new(routes, others);
     let mut turn = Turn::new(prober, &beside);
-    let mut guessed = Vec::new();
-    for lever in levers {
-        guessed.push((turn.guess(&lever)?, turn.course(lever)?));
-    }
+    let guess = |course: Arc<Course>| (turn.guess(&course), course);
+    let mut guessed: Vec<(f64, Arc<Course>)> = courses.into_iter().map(guess).collect();
     guessed.sort_by(|(one, _), (two, _)| one.total_cmp(two));
-    let mut courses: Vec<Course> = guessed.into_iter().map(|(_, course)| course).collect();
+    let mut courses: Vec<Arc<Course>> = guessed.into_iter().map(|(_, course)| course).collect();
     let (mut found, mut least, mut is_cut) = (None, None, false);
     // the likeliest first; whatever it shows, the others are not looked at beyond it
     let others = courses.split_off(1.min(courses.len()));

@@ -59,6 +59,18 @@ impl RouteGraph {
         })
     }
 
+    /// Takes over what is known of where changes of shape pay in another graph.
+    ///
+    /// # Arguments
+    /// `doors` gives each door the other graph's that is the same between the same rooms, if one is.
+    pub fn know_changes(&mut self, of: &Self, doors: impl Iterator<Item = Option<DoorIndex>>) {
+        let Some(known) = of.turning.get() else { return };
+        self.turning();
+        if let Some(turning) = self.turning.get_mut() {
+            turning.know_gates(known, doors);
+        }
+    }
+
     /// Makes [`way`](Self::way) quick between any two rooms, where all hardness lies on the doors; elsewhere it does
     /// nothing. What is prepared follows [`reweigh`](Self::reweigh), and clones share what does not hang on weights.
     ///

@@ -65,6 +65,17 @@ impl Turning {
         self.gates[door.index()][side][(order as i8 + 1) as usize].get_or_init(find)
     }
 
+    /// Has the gates that are known of another graph's doors for these ones.
+    ///
+    /// # Arguments
+    /// `doors` gives each door the other graph's that is the same change between the same rooms.
+    pub fn know_gates(&mut self, of: &Self, doors: impl Iterator<Item = Option<DoorIndex>>) {
+        let known = |door: Option<DoorIndex>| {
+            door.map_or_else(Arc::default, |door| Arc::new(Gates::clone(&of.gates[door.index()])))
+        };
+        self.gates = Arc::new(doors.map(known).collect());
+    }
+
     /// Forgets the gates of changes between rooms that these doors come near to.
     pub fn forget_near(&mut self, (rooms, doors): (&[RouteRoom], &[RouteDoor]), which: &[DoorIndex]) {
         if which.is_empty() {

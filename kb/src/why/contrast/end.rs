@@ -1,15 +1,20 @@
 //! Two sets of ways, and the end of the values at which the one holds against the other.
 
-use super::{Lever, Path, Weights};
-use crate::why::contrast::Probe;
-
-/// Values beyond this are not looked at: there is no end.
-pub const LARGEST: f64 = 1e6;
+use super::Path;
+use crate::state::tunable::Weights;
+use crate::why::probe::Probe;
 
 /// Two sets of ways: those that hold, and those that speak against them.
 pub trait Contrast {
     /// The best of both at some weights; `None` where there is nothing to compare.
     fn look(&self, weights: &Weights) -> Option<Look>;
+
+    /// As [`look`](Self::look), where a way is known that holds, and what the others cost at least: if the others have not won
+    /// against that way, they are not looked at further, nor is a better one that holds.
+    fn look_beside(&self, weights: &Weights, known: &Known) -> Option<Look> {
+        let _ = known;
+        self.look(weights)
+    }
 
     /// The best of the others, and what it costs, if that is no more than a limit; one that costs more may be found or not.
     fn rival(&self, weights: &Weights, limit: f64) -> Option<(Path, f64)>;
@@ -38,6 +43,15 @@ pub struct Look {
     pub least: f64,
     /// Whether the others have won.
     pub is_turned: bool,
+}
+
+/// What is known before it is looked.
+#[derive(Clone, Copy, Debug)]
+pub struct Known<'k> {
+    /// A way of those that hold.
+    pub own: &'k Path,
+    /// What the others cost at least; 0 where nothing is known.
+    pub least: f64,
 }
 
 /// What takes over.
@@ -74,24 +88,6 @@ impl End {
         match &self.beyond {
             Takeover::Way(_, cost) => Some(*cost),
             _ => None,
-        }
-    }
-}
-
-/// To which side of the present value.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Side {
-    Below,
-    Above,
-}
-
-impl Side {
-    /// The last value on it, or as far as is looked.
-    pub fn limit(self, lever: &Lever, within: Option<f64>) -> f64 {
-        let reach = within.map_or(f64::INFINITY, |share| share * lever.scale());
-        match self {
-            Self::Below => (lever.value - reach).max(least(lever)),
-            Self::Above => (lever.value + reach).min(LARGEST.max(lever.value * 2.0)),
         }
     }
 }
@@ -133,9 +129,4 @@ impl Takeover {
             Probe::Refused => Some(Self::Refused),
         }
     }
-}
-
-/// The least value that a cell may have.
-pub fn least(lever: &Lever) -> f64 {
-    if lever.value < 0.0 { -LARGEST } else { 0.0 }
 }

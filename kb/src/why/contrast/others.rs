@@ -2,7 +2,8 @@
 
 use adit_planners::routes::{Goal, RouteGraph, Start, Way};
 
-use super::{Contrast, Look, Path, Routes, Weights};
+use super::{Contrast, Known, Look, Path, Routes};
+use crate::state::tunable::Weights;
 
 /// Others are looked for that cost so much more than the best way at most, as a share of what it costs.
 const REACH: f64 = 1.01;
@@ -56,6 +57,36 @@ impl Contrast for Beside<'_> {
             return Some(Look { own, rival, least, is_turned: self.is_turned(cost, least) });
         }
         Some(Look { own, rival: None, least: 0.0, is_turned: false })
+    }
+
+    fn look_beside(&self, weights: &Weights, Known { own, least }: &Known) -> Option<Look> {
+        let cost = own.cost(weights);
+        let has_not_won = |own: (Path, f64), least: f64| {
+            Some(Look { own: Some(own), rival: None, least, is_turned: false })
+        };
+        if *least > 0.0 {
+            if cost.is_finite() && !self.is_turned(cost, *least) {
+                return has_not_won(((*own).clone(), cost), *least);
+            }
+            let best = self.all.best(weights, f64::INFINITY)?;
+            let cost = best.cost(weights);
+            return if self.is_turned(cost, *least) {
+                self.look(weights)
+            } else {
+                has_not_won((best, cost), *least)
+            };
+        }
+        if !cost.is_finite() {
+            return self.look(weights);
+        }
+        match self.rival(weights, cost).filter(|(_, rival)| self.is_turned(cost, *rival)) {
+            None => has_not_won(((*own).clone(), cost), cost),
+            Some(rival) => {
+                let glance = self.glance(weights)?;
+                let is_known = glance.is_turned || glance.rival.is_some();
+                Some(if is_known { glance } else { Look { least: rival.1, rival: Some(rival), ..glance } })
+            }
+        }
     }
 
     fn rival(&self, weights: &Weights, limit: f64) -> Option<(Path, f64)> {
@@ -112,6 +143,11 @@ impl Choice {
         Self { tight: joined(self.tight, &on.tight), driven: joined(self.driven, &on.driven) }
     }
 
+    /// Whether this one is the best by what both cost close to walls, but costs no less than another one as they are driven.
+    pub fn is_chosen_close_to_walls(&self, other: &Self) -> bool {
+        !is_best(self.tight.cost, other.tight.cost) && is_best(self.driven.cost, other.driven.cost)
+    }
+
     /// What the best way and another one cost as they are driven; as they are chosen where keeping off walls costs the best one
     /// more than the whole difference.
     pub fn costs(best: Option<&Self>, other: Option<&Self>) -> (Option<f64>, Option<f64>) {
@@ -119,7 +155,7 @@ impl Choice {
         let (Some(one), Some(two)) = (best, other) else { return (best.map(driven), other.map(driven)) };
         if is_best(one.tight.cost, two.tight.cost) {
             (Some(driven(one)), Some(driven(one)))
-        } else if is_best(driven(one), driven(two)) {
+        } else if one.is_chosen_close_to_walls(two) {
             (Some(one.tight.cost), Some(two.tight.cost))
         } else {
             (Some(driven(one)), Some(driven(two)))

@@ -6,9 +6,9 @@ use adit_planners::routes::{
     CompactGraph, CompactTree, DoorIndex, Goal, RoomIndex, RouteGraph, Start, Walking, Way,
 };
 
-use super::Weights;
 use crate::error::Result;
 use crate::state::State;
+use crate::state::tunable::Weights;
 
 /// So near to the end of an interval, as a share of it, it is looked at what the best way is.
 const HAIR: f64 = 1e-3;

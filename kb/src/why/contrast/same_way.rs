@@ -9,8 +9,10 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use adit_planners::routes::RoomIndex;
 
-use super::{Contrast, Look, Path, Prober, Routes, Weights};
+use super::{Contrast, Look, Path, Routes};
 use crate::graph::SiteGraph;
+use crate::state::tunable::Weights;
+use crate::why::probe::Prober;
 
 /// The present way, driven as is best at any weights, beside all ways.
 pub struct SameWay<'r> {

@@ -1,7 +1,7 @@
 //! Ways as straight lines between two values of a cell in which weights are linear.
 
-use super::linear::Line;
 use super::{Look, Path};
+use crate::state::tunable::Line;
 
 /// A look at a value.
 #[derive(Clone)]
@@ -39,4 +39,11 @@ impl Straight {
 pub fn is_inside(value: f64, near: &At, far: &At) -> bool {
     let is_other = |at: &At| (value - at.value).abs() > 1e-9 * value.abs().max(1e-6);
     is_other(near) && is_other(far)
+}
+
+/// By how much more a way costs for each that the value of a cell is more; `None` where it cannot be passed.
+pub fn slope(line: &Line, path: &Path) -> Option<f64> {
+    let [(from, present), (to, there)] = line.ends();
+    let slope = (path.cost(&there) - path.cost(&present)) / (to - from);
+    slope.is_finite().then_some(slope)
 }

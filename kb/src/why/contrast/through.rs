@@ -11,7 +11,8 @@ use adit_planners::routes::{
     Closed, DoorIndex, Entry, Goal, Leg, RoomIndex, RouteDoor, RouteGraph, Start, Way,
 };
 
-use super::{Choice, Path, Routes, Ways, Weights};
+use super::{Choice, Path, Routes, Ways};
+use crate::state::tunable::Weights;
 
 /// What a way is asked to lead through.
 #[derive(Clone, Debug, PartialEq)]
@@ -56,6 +57,9 @@ struct Copies {
 /// A way keeps to a point that it passes this near, metres.
 const AT_M: f64 = 1e-6;
 
+/// A way is in a room, or on a door, to such a length, metres.
+const THERE_M: f64 = 1e-3;
+
 impl Through {
     /// With the best one as everything weighs now; `None` where there is none.
     pub fn new(graph: &RouteGraph, (start, goal): (&Start, &Goal), via: Via) -> (Self, Option<Choice>) {
@@ -73,13 +77,22 @@ impl Through {
         (Self { via, found: Found::ByPoint(halves) }, choice)
     }
 
-    pub fn holds_way(&self, way: &Way) -> bool {
-        match &self.via {
-            Via::Point(at, _) => {
-                way.legs.iter().any(|leg| at.nearest_on(leg.from, leg.to).distance(*at) <= AT_M)
+    /// Whether a way leads there as it is driven: farther off walls it may turn back before.
+    pub fn holds_way(&self, graph: &RouteGraph, way: &Way) -> bool {
+        // about a corner a disc comes nearer to it than its middle's space does
+        let is_at = |nearest: Point, leg: &Leg| {
+            let about = graph[leg.room].radius.unwrap_or(0.0) + THERE_M;
+            graph.is_on_doors() || nearest.distance(leg.to) <= about
+        };
+        way.legs.iter().any(|leg| match &self.via {
+            Via::Point(at, _) => at.nearest_on(leg.from, leg.to).distance(*at) <= AT_M,
+            Via::Rooms(rooms) => {
+                rooms.contains(&leg.room) && is_at(graph[leg.room].outline.nearest_to(leg.to), leg)
             }
-            _ => self.holds(&Path::of(way)) == Some(true),
-        }
+            Via::Doors(doors) => leg.door.is_some_and(|door| {
+                doors.contains(&door) && is_at(graph[door].crossing.nearest_to(leg.to), leg)
+            }),
+        })
     }
 }
 
@@ -196,6 +209,12 @@ impl Copies {
         let goal = Goal { rooms: goal.rooms.iter().map(in_second).collect(), ..*goal };
         let entries = graph.doors().iter().zip(graph.door_indices());
         let entries = entries.map(|(door, index)| is_entry(door, index)).collect();
+        let is_same = |(copy, &door): (&RouteDoor, &DoorIndex)| {
+            (copy.room1.index() % count == graph[door].room1.index() && !is_entry(&graph[door], door))
+                .then_some(door)
+        };
+        let same: Vec<_> = both.doors().iter().zip(&doors).map(is_same).collect();
+        both.know_changes(graph, same.into_iter());
         let routes = Routes::between(&both, start, goal);
         let choice = Choice::among(&routes, &both);
         let all = Self { routes, rooms: count, doors, entries };

@@ -3,13 +3,14 @@
 mod first;
 
 use std::cell::Cell;
-use std::rc::Rc;
+use std::collections::BTreeMap;
+use std::sync::Arc;
 
-use super::end::LARGEST;
-use super::linear::Line;
-use super::straight::{At, Straight, is_inside};
-use super::{Contrast, End, Found, Lever, Look, Path, Probe, Prober, Side, Takeover, Weights, least};
+use super::straight::{At, Straight, is_inside, slope};
+use super::{Contrast, End, Found, Known, Look, Path, Takeover};
 use crate::error::Result;
+use crate::state::tunable::{Course, LARGEST, LAST, Lever, Line, Side, Weights, lowest};
+use crate::why::probe::{Probe, Prober};
 
 /// Values that are tried in a piece where weights are not linear.
 const TRIED: usize = 8;
@@ -20,20 +21,8 @@ const PATIENCE: usize = 2_000;
 /// So far beyond where two ways cost the same, as a share, the one is the best.
 const BEYOND: f64 = 1e-6;
 
-/// So near to the last value of a range, as a share of it, there is no end.
-const LAST: f64 = 1e-4;
-
 /// So often the first value is guessed from ways that took over elsewhere.
 const GUESSES: usize = 4;
-
-/// What the values of a cell make of all weights.
-pub struct Course {
-    pub lever: Lever,
-    /// Below and above the present value; `None` where weights are not linear all the way.
-    lines: [Option<Line>; 2],
-    /// Whether any value weighs something otherwise.
-    pub weighs: bool,
-}
 
 /// What a piece of the range showed.
 enum Piece {
@@ -54,7 +43,6 @@ pub struct Turn<'t> {
     /// Ways that took over somewhere.
     rivals: Vec<Path>,
     is_exact: bool,
-    weighs: bool,
 }
 
 impl<'t> Turn<'t> {
@@ -65,7 +53,7 @@ impl<'t> Turn<'t> {
             here.least = here.rival.as_ref().map_or(f64::INFINITY, |(_, cost)| *cost);
         }
         let (spent, rivals) = (Cell::new(0), Vec::new());
-        Self { prober, contrast, spent, here, rivals, is_exact: true, weighs: false }
+        Self { prober, contrast, spent, here, rivals, is_exact: true }
     }
 
     fn spend(&self) {
@@ -79,33 +67,16 @@ impl<'t> Turn<'t> {
 
     /// How much a cell would have to change, as a share of what it is, were both ways to be driven as now: a guess, to look at
     /// likely ones first.
-    pub fn guess(&mut self, lever: &Lever) -> Result<f64> {
-        let nudge = lever.value.abs().max(1.0) / f64::from(1 << 20);
-        let there = self.prober.at(lever, lever.value + nudge)?;
-        self.prober.restore(lever)?;
+    pub fn guess(&self, course: &Course) -> f64 {
         let Some(Look { own: Some((own, cost)), rival: Some((rival, dearer)), .. }) = &self.here else {
-            return Ok(f64::INFINITY);
+            return f64::INFINITY;
         };
-        let Probe::Weighs(weights) = there else { return Ok(f64::INFINITY) };
-        let lead = dearer - cost;
-        let slope = (rival.cost(&weights) - own.cost(&weights) - lead) / nudge;
-        let change = -lead / slope;
+        let lever = &course.lever;
+        let slope = |line: &Line| Some(slope(line, rival)? - slope(line, own)?);
+        let Some(slope) = course.lines.iter().flatten().find_map(slope) else { return f64::INFINITY };
+        let change = (cost - dearer) / slope;
         let is_possible = change.is_finite() && (lever.value < 0.0 || lever.value + change >= 0.0);
-        Ok(if is_possible { change.abs() / lever.scale() } else { f64::INFINITY })
-    }
-
-    /// What the values of a cell make of all weights, as far as there are values.
-    pub fn course(&mut self, lever: Lever) -> Result<Course> {
-        self.weighs = false;
-        let mut lines = [None, None];
-        for (line, side) in lines.iter_mut().zip([Side::Below, Side::Above]) {
-            let limit = side.limit(&lever, None);
-            if limit.total_cmp(&lever.value).is_ne() {
-                *line = self.whole(&lever, &lever.breaks(limit))?;
-            }
-        }
-        self.prober.restore(&lever)?;
-        Ok(Course { lever, lines, weighs: self.weighs })
+        if is_possible { change.abs() / lever.scale() } else { f64::INFINITY }
     }
 
     /// The first value on one side of the present one at which the ways that hold give way.
@@ -136,39 +107,63 @@ impl<'t> Turn<'t> {
 
     /// Of some cells those that have no end below, found by looking at many of them at once: where all of them fall together and
     /// the others still cost more than the way that holds does now, none of them does it alone.
-    pub fn without_end_below(&mut self, courses: &[Course], within: Option<f64>) -> Vec<bool> {
+    pub fn without_end_below(&mut self, courses: &[Arc<Course>], within: Option<f64>) -> Vec<bool> {
         let mut never = vec![false; courses.len()];
         let Some(Look { own: Some((_, cost)), is_turned: false, .. }) = &self.here else { return never };
-        let (cost, lines) = (*cost, |course: &Course| course.lines[Side::Below as usize].is_some());
-        let mut asked: Vec<usize> =
-            (0..courses.len()).filter(|&of| courses[of].weighs && lines(&courses[of])).collect();
-        while !asked.is_empty() && !self.is_over() {
-            let mut least = Weights::clone(&self.prober.present);
-            for &of in &asked {
-                if let Some(line) = &courses[of].lines[Side::Below as usize] {
-                    line.lower(Side::Below.limit(&courses[of].lever, within), &mut least);
+        let cost = *cost;
+        let lines = |course: &Arc<Course>| course.lines[Side::Below as usize].is_some();
+        // together where they weigh the same kind of thing: where all weighs nothing, nothing is told apart
+        let mut groups: BTreeMap<(&str, &str), Vec<usize>> = BTreeMap::new();
+        for of in (0..courses.len()).filter(|&of| courses[of].weighs && lines(&courses[of])) {
+            let lever = &courses[of].lever;
+            groups.entry((&lever.class, &lever.column)).or_default().push(of);
+        }
+        for mut asked in groups.into_values() {
+            while !asked.is_empty() && !self.is_over() {
+                let before = asked.len();
+                if !self.is_one_alone(courses, &mut asked, within, cost) {
+                    for &of in &asked {
+                        never[of] = true;
+                    }
+                    break;
                 }
-            }
-            self.spend();
-            let rival = self.contrast.rival(&least, cost);
-            let Some((path, _)) = rival.filter(|(_, rival)| self.contrast.is_turned(cost, *rival)) else {
-                for of in asked {
-                    never[of] = true;
+                if asked.len() == before {
+                    break;
                 }
-                break;
-            };
-            let before = asked.len();
-            asked.retain(|&of| {
-                let limit = Side::Below.limit(&courses[of].lever, within);
-                let line = &courses[of].lines[Side::Below as usize];
-                !line.as_ref().is_some_and(|line| line.lowers(limit, &path))
-            });
-            self.remember(path);
-            if asked.len() == before {
-                break;
             }
         }
         never
+    }
+
+    /// Whether the others may win where some cells fall together: those that have no part in it are asked no more.
+    fn is_one_alone(
+        &mut self,
+        courses: &[Arc<Course>],
+        asked: &mut Vec<usize>,
+        within: Option<f64>,
+        cost: f64,
+    ) -> bool {
+        let limit = |of: usize| Side::Below.limit(&courses[of].lever, within);
+        let line = |of: usize| courses[of].lines[Side::Below as usize].as_ref();
+        let mut least = Weights::clone(&self.prober.present);
+        for &of in asked.iter() {
+            if let Some(line) = line(of) {
+                line.lower(limit(of), &mut least);
+            }
+        }
+        self.spend();
+        let rival = self.contrast.rival(&least, cost);
+        let Some((path, _)) = rival.filter(|(_, rival)| self.contrast.is_turned(cost, *rival)) else {
+            return false;
+        };
+        asked.retain(|&of| {
+            let Some(line) = line(of) else { return true };
+            let mut lower = Weights::clone(&self.prober.present);
+            line.lower(limit(of), &mut lower);
+            path.cost(&lower) >= path.cost(&self.prober.present)
+        });
+        self.remember(path);
+        true
     }
 
     fn by_pieces(&mut self, lever: &Lever, limit: f64) -> Result<Piece> {
@@ -192,36 +187,7 @@ impl<'t> Turn<'t> {
 
     fn probe(&mut self, lever: &Lever, value: f64) -> Result<Probe> {
         self.spend();
-        let probe = self.prober.at(lever, value)?;
-        self.weighs |= !matches!(&probe, Probe::Weighs(weights) if *weights == *self.prober.present);
-        Ok(probe)
-    }
-
-    /// The weights from the present value to the last of some, where they are linear all the way.
-    fn whole(&mut self, lever: &Lever, breaks: &[f64]) -> Result<Option<Line>> {
-        let mut line: Option<Line> = None;
-        let mut from = lever.value;
-        // outwards in: the last value makes the line, and each other one must lie on it
-        let mut values = Vec::new();
-        for &to in breaks {
-            values.extend([f64::midpoint(from, to), to]);
-            from = to;
-        }
-        for value in values.into_iter().rev() {
-            if self.is_over() {
-                return Ok(None);
-            }
-            let Probe::Weighs(weights) = self.probe(lever, value)? else { return Ok(None) };
-            match &line {
-                None => {
-                    let present = (lever.value, Rc::clone(&self.prober.present));
-                    line = Some(Line::new(present, (value, &weights)));
-                }
-                Some(line) if line.holds(value, &weights) => {}
-                Some(_) => return Ok(None),
-            }
-        }
-        Ok(line)
+        self.prober.at(lever, value)
     }
 
     /// The first value from `from` on, up to `to` and with it: rules may switch there.
@@ -255,7 +221,7 @@ impl<'t> Turn<'t> {
         if !matches!(found, Piece::Nothing) {
             return Ok(found);
         }
-        let is_last = to.total_cmp(&least(lever)).is_eq() || to.abs() >= LARGEST;
+        let is_last = to.total_cmp(&lowest(lever)).is_eq() || to.abs() >= LARGEST;
         let beyond = self.beyond(lever, to)?;
         // at the last value that a cell may have, what costs the same takes nothing over
         if is_last && matches!(beyond, Some(Takeover::Way(..))) && self.contrast.is_turned(1.0, 1.0) {
@@ -300,7 +266,8 @@ impl<'t> Turn<'t> {
         let mut near = At { value: from, look: near };
         for guesses in (0..=GUESSES).rev() {
             let guess = if guesses > 0 { self.guessed(line, &near, to) } else { None };
-            let Some(mut far) = self.look_at(line, guess.unwrap_or(to)) else { return Piece::Nothing };
+            let far = self.look_at(line, guess.unwrap_or(to), (&near, is_rising));
+            let Some(mut far) = far else { return Piece::Nothing };
             if is_rising {
                 far.look.least = far.look.least.max(near.look.least);
             }
@@ -349,8 +316,18 @@ impl<'t> Turn<'t> {
         self.contrast.look(weights)
     }
 
-    fn look_at(&self, line: &Line, value: f64) -> Option<At> {
-        Some(At { value, look: self.look(&line.at(value)?)? })
+    /// A look at a value beyond another one.
+    fn look_at(&self, line: &Line, value: f64, (near, is_rising): (&At, bool)) -> Option<At> {
+        let weights = line.at(value)?;
+        self.spend();
+        let look = match &near.look.own {
+            Some((own, _)) => {
+                let least = if is_rising { near.look.least } else { 0.0 };
+                self.contrast.look_beside(&weights, &Known { own, least })
+            }
+            None => self.contrast.look(&weights),
+        };
+        Some(At { value, look: look? })
     }
 
     fn glance_at(&self, line: &Line, value: f64) -> Option<At> {

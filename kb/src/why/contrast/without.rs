@@ -3,7 +3,8 @@
 use adit_planners::routes::{DoorIndex, Goal, RoomIndex, RouteGraph, Start, Walking};
 
 use super::others::Choice;
-use super::{Path, Routes, Ways, Weights};
+use super::{Path, Routes, Ways};
+use crate::state::tunable::Weights;
 
 /// Ways that keep out of some rooms and doors.
 pub struct Without {

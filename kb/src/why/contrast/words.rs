@@ -2,8 +2,9 @@
 
 use adit_planners::routes::DoorIndex;
 
-use super::{Path, Prober};
+use super::Path;
 use crate::graph::SiteGraph;
+use crate::why::probe::Prober;
 use crate::why::said::listed;
 use crate::words::number::number;
 

@@ -3,8 +3,10 @@
 use serde::Serialize;
 
 use crate::error::Result;
+use crate::state::tunable::{Lever, Side};
 use crate::why::contrast::same_way::SameWay;
-use crate::why::contrast::{End, Lever, Probe, Prober, Side, Takeover, actions, instead};
+use crate::why::contrast::{End, Takeover, actions, instead};
+use crate::why::probe::{Probe, Prober};
 
 /// What takes over beyond an end.
 #[derive(Clone, Debug, PartialEq, Serialize, utoipa::ToSchema)]

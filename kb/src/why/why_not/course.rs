@@ -64,6 +64,7 @@ pub fn why_not(courses: &Courses, route: [&str; 3], through: &str, generation: u
         cost: row.cost,
         reason,
         sentence,
+        driven: None,
         deciding: row.steps.iter().filter(|step| step.kind == "line").map(weighs).collect(),
         would_win: None,
         not_looked_further: true,

@@ -8,13 +8,17 @@ use adit_planners::routes::{Entry, Goal, Start, Walking};
 use super::{WhyNot, WouldWin};
 use crate::state::State;
 use crate::why::contrast::through::Via;
-use crate::why::contrast::{Path, Prober, Routes, actions, instead, is_best};
+use crate::why::contrast::{Path, Routes, actions, instead, is_best};
 use crate::why::meant::Meant;
+use crate::why::probe::Prober;
 use crate::why::said::{capital, cell, roughly};
 use crate::words::number::number;
 
 /// So many comparisons that failed are told.
 const TOLD: usize = 8;
+
+/// A number that changes by no more, as a share, is the same to people.
+const HAIR: f64 = 1e-3;
 
 /// In a few words.
 pub(super) fn reason(
@@ -140,7 +144,21 @@ pub(super) fn sentence(answer: &WhyNot, meant: &Meant) -> String {
         said.push_str(deciding);
     }
     said.push('.');
+    if let Some([best, cost]) = answer.driven {
+        write!(
+            said,
+            " Ways are chosen by what they cost close to walls; driven farther off, this one costs {} and the best route {}.",
+            number(cost),
+            number(best)
+        )
+        .ok();
+    }
     match &answer.would_win {
+        Some(cell) if (cell.wins_at - cell.value).abs() <= HAIR * cell.value.abs().max(0.1) => {
+            let (name, is) = (cell_name(cell, &answer.robot), number(cell.value));
+            let verb = if cell.wins_at < cell.value { "fell" } else { "rose" };
+            write!(said, " It would be the best way if {name} {verb} by a thousandth (it is {is}).").ok();
+        }
         Some(cell) => {
             let (verb, to) = if cell.wins_at < cell.value {
                 ("fell", roughly(cell.wins_at, f64::floor))

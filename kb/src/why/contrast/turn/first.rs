@@ -1,7 +1,7 @@
 //! The first value at which others win, where weights are linear in it: lines of the ways that are best at two values lead to it.
 
 use super::{Piece, Turn};
-use crate::why::contrast::linear::Line;
+use crate::state::tunable::Line;
 use crate::why::contrast::straight::{At, Straight, is_inside};
 use crate::why::contrast::{End, Path, Takeover};
 
@@ -29,7 +29,8 @@ impl Turn<'_> {
                 waiting.clear();
                 waiting.push((near, before));
             } else if let Some(middle) = self.may_turn(line, &near, &far) {
-                let Some(mut middle) = self.look_at(line, middle) else { return Piece::Unknown };
+                let middle = self.look_at(line, middle, (&near, is_rising));
+                let Some(mut middle) = middle else { return Piece::Unknown };
                 if is_rising {
                     middle.look.least = middle.look.least.max(near.look.least);
                 }

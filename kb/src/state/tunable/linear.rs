@@ -1,17 +1,17 @@
 //! Weights between two values of a cell, where they are linear in it.
 
-use std::rc::Rc;
+use std::sync::Arc;
 
 use adit_planners::routes::Walking;
 
-use super::{Path, Weights};
+use super::Weights;
 
 /// To such a share of its size a weight must be where the line says.
 const STRAIGHT: f64 = 1e-9;
 
 /// Weights on a line through two values of a cell.
 pub struct Line {
-    from: (f64, Rc<Weights>),
+    from: (f64, Arc<Weights>),
     to: f64,
     /// What weighs otherwise at the other value, by index.
     rooms: Vec<(usize, Walking)>,
@@ -19,7 +19,7 @@ pub struct Line {
 }
 
 impl Line {
-    pub fn new(from: (f64, Rc<Weights>), to: (f64, &Weights)) -> Self {
+    pub fn new(from: (f64, Arc<Weights>), to: (f64, &Weights)) -> Self {
         let rooms = from.1.rooms.iter().zip(&to.1.rooms).enumerate();
         let rooms = rooms.filter(|(_, (one, two))| one != two).map(|(room, (_, two))| (room, *two)).collect();
         let doors = from.1.doors.iter().zip(&to.1.doors).enumerate();
@@ -30,8 +30,17 @@ impl Line {
 
     /// Through two values, if a third one between them lies on it.
     pub fn through(from: (f64, Weights), between: (f64, &Weights), to: (f64, &Weights)) -> Option<Self> {
-        let line = Self::new((from.0, Rc::new(from.1)), to);
+        let line = Self::new((from.0, Arc::new(from.1)), to);
         line.holds(between.0, between.1).then_some(line)
+    }
+
+    /// The first value with its weights, and the other one.
+    pub fn ends(&self) -> [(f64, Weights); 2] {
+        let (from, to) = (self.from.0, self.to);
+        [
+            (from, Weights::clone(&self.from.1)),
+            (to, self.at(to).unwrap_or_else(|| Weights::clone(&self.from.1))),
+        ]
     }
 
     /// Whether everything weighs the same at both values.
@@ -95,12 +104,5 @@ impl Line {
                 least.doors[door] = least.doors[door].min(there);
             }
         }
-    }
-
-    /// Whether a way costs less at a value than at the first one.
-    pub fn lowers(&self, value: f64, path: &Path) -> bool {
-        let mut least = Weights::clone(&self.from.1);
-        self.lower(value, &mut least);
-        path.cost(&least) < path.cost(&self.from.1)
     }
 }

@@ -4,28 +4,19 @@ use std::collections::BTreeSet;
 
 use adit_planners::facts::Column;
 
-use super::probe::{Lever, Probe, Prober};
+use super::{Probe, Prober};
 use crate::error::Result;
+use crate::state::tunable::Lever;
 
 /// So many rows of a table are looked at.
 const ROWS: usize = 200;
 
 impl Prober {
-    /// The cells of the columns that weigh: where a cell of a column changes by a hair, something weighs a little
+    /// The cells of the columns of a class that weigh: where a cell of a column changes by a hair, something weighs a little
     /// more or less, and no room is cut anew. Sizes do not: they let pass or not.
-    pub fn levers(&mut self) -> Result<Vec<Lever>> {
-        self.levers_of(self.columns())
-    }
-
-    /// Those of one class.
-    pub fn levers_in(&mut self, class: &str) -> Result<Vec<Lever>> {
-        let columns = self.columns().into_iter().filter(|(of, _)| of == class);
-        self.levers_of(columns.collect())
-    }
-
-    fn levers_of(&mut self, columns: Vec<(String, String)>) -> Result<Vec<Lever>> {
+    pub(super) fn levers_in(&mut self, class: &str) -> Result<Vec<Lever>> {
         let mut levers = Vec::new();
-        for (class, column) in columns {
+        for (class, column) in self.columns().into_iter().filter(|(of, _)| of == class) {
             let all = self.cells_of(&class, &column);
             let mut weighs = false;
             for lever in &all {
@@ -45,7 +36,7 @@ impl Prober {
     }
 
     /// The columns with numbers of tables that people tune, as far as a rule reads them.
-    fn columns(&self) -> Vec<(String, String)> {
+    pub(super) fn columns(&self) -> Vec<(String, String)> {
         let read: BTreeSet<(String, String)> = self
             .fork
             .inputs

@@ -6,105 +6,20 @@
 //! writes a second graph, and has planners cut rooms anew where a probe only says that they would. A cell is tried some
 //! hundred times for one answer, so the probe leaves that out; what it shares with the step stands once.
 
-use std::ops;
-use std::rc::Rc;
+mod course;
+mod levers;
+
+use std::sync::Arc;
 
 use adit_engine::{Severity, Value};
 use adit_planners::facts::Facts;
-use adit_planners::routes::{DoorIndex, RoomIndex, RouteGraph, Walking};
+use adit_planners::routes::Walking;
 
 use crate::error::{Code, Error, Result};
 use crate::graph::walking;
 use crate::knowledge::classes;
+use crate::state::tunable::{Lever, Weights};
 use crate::state::{Look, State, Which, needs_changed};
-
-/// A number of a table that people tune.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Lever {
-    pub class: String,
-    pub row: usize,
-    /// The key by which edits name the row.
-    pub key: String,
-    pub column: String,
-    pub value: f64,
-    /// The other values of the column, ascending.
-    pub others: Vec<f64>,
-}
-
-impl Lever {
-    /// What a change of it is measured by.
-    pub fn scale(&self) -> f64 {
-        self.value.abs().max(0.1)
-    }
-
-    /// The values between the present one and a limit, exclusively, where rules may switch, outwards; the limit is the last.
-    pub fn breaks(&self, limit: f64) -> Vec<f64> {
-        let (low, high) = (self.value.min(limit), self.value.max(limit));
-        let mut breaks: Vec<f64> =
-            self.others.iter().copied().filter(|other| *other > low && *other < high).collect();
-        if limit < self.value {
-            breaks.reverse();
-        }
-        breaks.push(limit);
-        breaks
-    }
-}
-
-/// What rooms and doors weigh, by index.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Weights {
-    pub rooms: Vec<Walking>,
-    /// What passing a door weighs; infinite where it is not passed.
-    pub doors: Vec<f64>,
-}
-
-impl ops::Index<RoomIndex> for Weights {
-    type Output = Walking;
-
-    fn index(&self, room: RoomIndex) -> &Walking {
-        &self.rooms[room.index()]
-    }
-}
-
-impl ops::Index<DoorIndex> for Weights {
-    type Output = f64;
-
-    fn index(&self, door: DoorIndex) -> &f64 {
-        &self.doors[door.index()]
-    }
-}
-
-impl Weights {
-    pub fn of(graph: &RouteGraph) -> Self {
-        let rooms = graph.rooms().iter().map(|room| room.walking);
-        let doors = graph.doors().iter().map(|door| door.weight().unwrap_or(f64::INFINITY));
-        Self { rooms: rooms.collect(), doors: doors.collect() }
-    }
-
-    /// Whether nothing weighs less than in others.
-    pub fn are_no_less_than(&self, other: &Self) -> bool {
-        let rooms = self.rooms.iter().zip(&other.rooms).all(|pair| match pair {
-            (Walking::PerMetre(one), Walking::PerMetre(two)) => one >= two,
-            (one, two) => one == two,
-        });
-        rooms && self.doors.iter().zip(&other.doors).all(|(one, two)| one >= two)
-    }
-
-    /// Whether something weighs a little differently, and nothing much differently.
-    pub fn differ_a_little(&self, other: &Self) -> bool {
-        /// Beyond this share it is a step, not a slope.
-        const LITTLE: f64 = 1e-3;
-        let is_near = |one: f64, two: f64| {
-            one.total_cmp(&two).is_eq()
-                || one.is_finite() && two.is_finite() && (one - two).abs() <= LITTLE * one.abs().max(1.0)
-        };
-        let rooms = self.rooms.iter().zip(&other.rooms).all(|(one, two)| match (one, two) {
-            (Walking::PerMetre(one), Walking::PerMetre(two)) => is_near(*one, *two),
-            (one, two) => one == two,
-        });
-        self != other && rooms && self.doors.iter().zip(&other.doors).all(|(one, two)| is_near(*one, *two))
-    }
-}
 
 /// What a value of a cell leads to.
 #[derive(Clone, Debug, PartialEq)]
@@ -121,7 +36,7 @@ pub struct Prober {
     /// The fork; its graph stays as it was.
     pub fork: State,
     /// What everything weighs as it is.
-    pub present: Rc<Weights>,
+    pub present: Arc<Weights>,
     now: Weights,
     /// What planners worked from.
     needs: Facts,
@@ -133,7 +48,7 @@ impl Prober {
     pub fn new(fork: State) -> Self {
         let present = Weights::of(fork.graph().graph());
         let needs = needs(&fork);
-        Self { now: present.clone(), present: Rc::new(present), fork, needs, is_cut_anew: false }
+        Self { now: present.clone(), present: Arc::new(present), fork, needs, is_cut_anew: false }
     }
 
     /// What the value leads to. The cell keeps it until [`restore`](Self::restore).
