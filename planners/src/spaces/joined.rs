@@ -1,8 +1,8 @@
 //! The pieces between openings and mouths, joined over mouths: a mouth parts two pieces only where they are unlike, as a
 //! corridor and a hall are, or where it is narrow beside both.
 
-use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
+use std::collections::{BTreeMap, BTreeSet};
 use std::mem::take;
 
 use super::clutter::clear_away;
@@ -86,25 +86,14 @@ pub(super) fn joined(floor: &Occupancy, found: &Openings) -> Vec<u32> {
     let mut swept = floor.clone();
     clear_away(&mut swept, STANDS_ALONE_M);
     close(&mut swept, found.closed());
-    let (mut of_cell, mut pieces) = pieces([&closed, &swept], &cut);
+    let (mut of_cell, pieces) = pieces([&closed, &swept], &cut);
     flood(&closed, &mut of_cell);
-    let mut passes = passes(&closed, &of_cell, found);
-    let mut number: Vec<u32> = (0..pieces.len() as u32).collect();
-    let mut known = BTreeMap::new();
-    while let Some([into, from]) = most_alike(&pieces, &passes, &mut known) {
-        let gone = take(&mut pieces[from as usize]);
-        let whole = &mut pieces[into as usize];
-        whole.cells += gone.cells;
-        whole.samples.extend(gone.samples);
-        number.iter_mut().filter(|number| **number == from).for_each(|number| *number = into);
-        for pass in &mut passes {
-            pass.between = pass.between.map(|piece| if piece == from { into } else { piece });
-        }
-        passes.retain(|pass| pass.between[0] != pass.between[1]);
-        known.retain(|[one, other], _| ![into, from].iter().any(|piece| piece == one || piece == other));
+    let mut joining = Joining::of(pieces, &passes(&closed, &of_cell, found));
+    while let Some(two) = joining.next() {
+        joining.join(two);
     }
     for piece in &mut of_cell {
-        *piece = number[*piece as usize];
+        *piece = joining.now(*piece);
     }
     of_cell
 }
@@ -162,49 +151,142 @@ fn passes(closed: &Occupancy, of_cell: &[u32], found: &Openings) -> Vec<Pass> {
     mouths.chain(found.between_tips.iter().filter_map(|line| pass(line, Kind::Opening))).collect()
 }
 
-/// The two pieces to join next; over an opening only when no mouth is left.
-///
-/// # Arguments
-/// `known` is what was found out before of two pieces: how unlike they are, if they are joined.
-fn most_alike(
-    pieces: &[Piece],
-    passes: &[Pass],
-    known: &mut BTreeMap<[u32; 2], Option<f64>>,
-) -> Option<[u32; 2]> {
-    let mut all: BTreeMap<[u32; 2], Mouths> = BTreeMap::new();
-    for pass in passes.iter().filter(|pass| pass.kind != Kind::Opening) {
-        let [one, other] = pass.between;
-        match all.entry([one.min(other), one.max(other)]) {
+/// Two pieces, the lower number first.
+type Two = [u32; 2];
+
+fn two(one: u32, other: u32) -> Two {
+    [one.min(other), one.max(other)]
+}
+
+/// The pieces as they are joined.
+struct Joining {
+    pieces: Vec<Piece>,
+    /// Into which one a piece went; itself while it stands.
+    went: Vec<u32>,
+    /// For each piece those that it has mouths into.
+    beside: Vec<BTreeSet<u32>>,
+    mouths: BTreeMap<Two, Mouths>,
+    /// How unlike two pieces are that are to be joined.
+    unlike: BTreeMap<Two, u64>,
+    /// The same, the most alike first; numbers that are not negative are in the order of their bits.
+    order: BTreeSet<(u64, Two)>,
+    openings: Vec<Pass>,
+    /// How many times as wide openings are as what lies behind them is broad, as far as it is known.
+    over: Vec<Option<f64>>,
+}
+
+impl Joining {
+    fn of(pieces: Vec<Piece>, passes: &[Pass]) -> Self {
+        let openings: Vec<Pass> = passes.iter().filter(|pass| pass.kind == Kind::Opening).copied().collect();
+        let mut all = Self {
+            went: (0..pieces.len() as u32).collect(),
+            beside: vec![BTreeSet::new(); pieces.len()],
+            pieces,
+            mouths: BTreeMap::new(),
+            unlike: BTreeMap::new(),
+            order: BTreeSet::new(),
+            over: vec![None; openings.len()],
+            openings,
+        };
+        for pass in passes.iter().filter(|pass| pass.kind != Kind::Opening) {
+            all.add(pass.between, Mouths { lines: vec![pass.line], kind: pass.kind });
+        }
+        for pair in all.mouths.keys().copied().collect::<Vec<_>>() {
+            all.compare(pair);
+        }
+        all
+    }
+
+    fn add(&mut self, [one, other]: Two, more: Mouths) {
+        self.beside[one as usize].insert(other);
+        self.beside[other as usize].insert(one);
+        match self.mouths.entry(two(one, other)) {
             Entry::Vacant(entry) => {
-                entry.insert(Mouths { lines: vec![pass.line], kind: pass.kind });
+                entry.insert(more);
             }
             Entry::Occupied(mut entry) => {
                 let mouths = entry.get_mut();
-                mouths.lines.push(pass.line);
-                mouths.kind = mouths.kind.max(pass.kind);
+                mouths.lines.extend(more.lines);
+                mouths.kind = mouths.kind.max(more.kind);
             }
         }
     }
-    let mut best: Option<(f64, [u32; 2])> = None;
-    for (two, mouths) in &all {
-        let unlike = *known.entry(*two).or_insert_with(|| {
-            let [one, other] = two.map(|piece| &pieces[piece as usize]);
-            unlike([one, other], mouths)
+
+    /// Finds out how unlike two pieces are, if they are joined.
+    fn compare(&mut self, pair: Two) {
+        self.forget(pair);
+        let found = self.mouths.get(&pair).and_then(|mouths| {
+            let two = pair.map(|piece| &self.pieces[piece as usize]);
+            unlike(two, mouths)
         });
-        if let Some(unlike) = unlike.filter(|unlike| best.is_none_or(|best| *unlike < best.0)) {
-            best = Some((unlike, *two));
+        if let Some(unlike) = found {
+            self.unlike.insert(pair, unlike.to_bits());
+            self.order.insert((unlike.to_bits(), pair));
         }
     }
-    if best.is_none() {
-        for pass in passes.iter().filter(|pass| pass.kind == Kind::Opening) {
-            let breadths = pass.between.map(|piece| pieces[piece as usize].breadth_behind(&pass.line));
-            let over = pass.line.length() / breadths[0].min(breadths[1]);
+
+    fn forget(&mut self, pair: Two) {
+        if let Some(unlike) = self.unlike.remove(&pair) {
+            self.order.remove(&(unlike, pair));
+        }
+    }
+
+    /// The piece that one has become.
+    fn now(&self, mut piece: u32) -> u32 {
+        while self.went[piece as usize] != piece {
+            piece = self.went[piece as usize];
+        }
+        piece
+    }
+
+    /// The two pieces to join next, the first of which stays; over an opening only when no mouth is left.
+    fn next(&mut self) -> Option<Two> {
+        if let Some((_, pair)) = self.order.first() {
+            return Some(*pair);
+        }
+        let mut best: Option<(f64, Two)> = None;
+        for place in 0..self.openings.len() {
+            let Pass { between, line, .. } = self.openings[place];
+            if between[0] == between[1] {
+                continue;
+            }
+            let over = self.over[place].unwrap_or_else(|| {
+                let breadths = between.map(|piece| self.pieces[piece as usize].breadth_behind(&line));
+                line.length() / breadths[0].min(breadths[1])
+            });
+            self.over[place] = Some(over);
             if over > WIDER_THAN_BROAD && best.is_none_or(|best| over > best.0) {
-                best = Some((over, pass.between));
+                best = Some((over, between));
             }
         }
+        best.map(|(_, between)| between)
     }
-    best.map(|(_, two)| two)
+
+    fn join(&mut self, [into, from]: Two) {
+        for (opening, over) in self.openings.iter_mut().zip(&mut self.over) {
+            let between = opening.between.map(|piece| if piece == from { into } else { piece });
+            if between.contains(&into) {
+                (opening.between, *over) = (between, None);
+            }
+        }
+        let gone = take(&mut self.pieces[from as usize]);
+        let whole = &mut self.pieces[into as usize];
+        whole.cells += gone.cells;
+        whole.samples.extend(gone.samples);
+        self.went[from as usize] = into;
+        for other in take(&mut self.beside[from as usize]) {
+            self.beside[other as usize].remove(&from);
+            self.forget(two(from, other));
+            if let Some(mouths) = self.mouths.remove(&two(from, other))
+                && other != into
+            {
+                self.add([into, other], mouths);
+            }
+        }
+        for other in self.beside[into as usize].clone() {
+            self.compare(two(into, other));
+        }
+    }
 }
 
 /// How many times as broad one of two pieces is as the other, if they are joined.
