@@ -96,10 +96,14 @@ impl State {
         let courses = prober.courses()?;
         let mut turn = Turn::new(&mut prober, &same);
         let never = turn.without_end_below(&courses, None);
+        let weighing: Vec<_> = courses.iter().zip(never).filter(|(course, _)| course.weighs).collect();
+        let above = weighing.iter().map(|(course, _)| (&***course, Side::Above));
+        let below = weighing.iter().filter(|(_, never)| !never).map(|(course, _)| (&***course, Side::Below));
+        let mut ends = turn.ends(&above.chain(below).collect::<Vec<_>>(), None)?;
+        let mut below = ends.split_off(weighing.len()).into_iter();
         let mut found = Vec::new();
-        for (course, never) in courses.iter().zip(never).filter(|(course, _)| course.weighs) {
-            let above = turn.end(course, Side::Above, None)?;
-            let below = if never { Found::nothing() } else { turn.end(course, Side::Below, None)? };
+        for ((course, never), above) in weighing.into_iter().zip(ends) {
+            let below = if never { None } else { below.next() }.unwrap_or_else(Found::nothing);
             firm.truncated |= !below.is_whole || !above.is_whole;
             found.push((&course.lever, [below, above]));
         }

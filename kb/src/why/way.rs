@@ -226,9 +226,11 @@ impl Holds {
             }
             let mut turn = Turn::new(prober, &beside);
             let lever = &course.lever;
-            let sides = [turn.end(&course, Side::Below, None)?, turn.end(&course, Side::Above, None)?];
+            let sides = turn.ends(&[(&course, Side::Below), (&course, Side::Above)], None)?;
             let exact = sides.iter().all(|side| side.is_exact);
-            let [low, high] = sides.map(|side| side.end.filter(|end| end.cost().is_some()).map(|end| end.at));
+            let mut ends =
+                sides.into_iter().map(|side| side.end.filter(|end| end.cost().is_some()).map(|end| end.at));
+            let [low, high] = [ends.next().flatten(), ends.next().flatten()];
             if low.is_some() || high.is_some() {
                 let (table, key, column) =
                     (lever.class.to_lowercase(), lever.key.clone(), lever.column.clone());

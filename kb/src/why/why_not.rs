@@ -214,24 +214,24 @@ fn would_win(prober: &mut Prober, routes: &Routes, others: &dyn Ways) -> Result<
     let others = courses.split_off(1.min(courses.len()));
     for courses in [courses, others] {
         let never = turn.without_end_below(&courses, least);
-        for (course, never) in courses.iter().zip(never) {
+        let sides = |(course, never): (&'_ Arc<Course>, bool)| {
+            let below = (!never).then_some(Side::Below);
+            below.into_iter().chain([Side::Above]).map(|side| (Arc::clone(course), side)).collect::<Vec<_>>()
+        };
+        let asked: Vec<(Arc<Course>, Side)> = courses.iter().zip(never).flat_map(sides).collect();
+        let within: Vec<(&Course, Side)> = asked.iter().map(|(course, side)| (&**course, *side)).collect();
+        for ((course, _), side) in asked.iter().zip(turn.ends(&within, least)?) {
             let lever = &course.lever;
-            for side in [Side::Below, Side::Above] {
-                if never && side == Side::Below {
-                    continue;
-                }
-                let side = turn.end(course, side, least)?;
-                // between values that were tried there may be one that would do
-                is_cut |= !side.is_whole || !side.is_exact && side.end.is_none();
-                let Some(end) = side.end else { continue };
-                let (wins_at, Some(cost)) = (end.won_at, end.cost()) else { continue };
-                let share = (wins_at - lever.value).abs() / lever.scale();
-                if least.is_none_or(|least| share < least) {
-                    least = Some(share);
-                    let (table, key, column) =
-                        (lever.class.to_lowercase(), lever.key.clone(), lever.column.clone());
-                    found = Some(WouldWin { table, key, column, value: lever.value, wins_at, cost });
-                }
+            // between values that were tried there may be one that would do
+            is_cut |= !side.is_whole || !side.is_exact && side.end.is_none();
+            let Some(end) = side.end else { continue };
+            let (wins_at, Some(cost)) = (end.won_at, end.cost()) else { continue };
+            let share = (wins_at - lever.value).abs() / lever.scale();
+            if least.is_none_or(|least| share < least) {
+                least = Some(share);
+                let (table, key, column) =
+                    (lever.class.to_lowercase(), lever.key.clone(), lever.column.clone());
+                found = Some(WouldWin { table, key, column, value: lever.value, wins_at, cost });
             }
         }
     }

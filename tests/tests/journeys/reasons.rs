@@ -276,7 +276,7 @@ fn check_why_not(desk: &Desk, answer: &WhyNot) {
         let [to, on] =
             [(ask.0, at.as_str()), (at.as_str(), ask.1)].map(|(from, to)| desk.route(from, to, ask.2));
         let least = to.cost.unwrap() + on.cost.unwrap();
-        desk.claim(is_near(least, cost, ROUNDING), || format!("{ends}: {}: {least}", answer.sentence));
+        desk.claim(is_near(least, driven, ROUNDING), || format!("{ends}: {}: {least}", answer.sentence));
     }
     let Some(cell) = &answer.would_win else { return };
     let out = (cell.wins_at - cell.value).signum();

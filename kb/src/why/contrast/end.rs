@@ -5,7 +5,7 @@ use crate::state::tunable::Weights;
 use crate::why::probe::Probe;
 
 /// Two sets of ways: those that hold, and those that speak against them.
-pub trait Contrast {
+pub trait Contrast: Sync {
     /// The best of both at some weights; `None` where there is nothing to compare.
     fn look(&self, weights: &Weights) -> Option<Look>;
 

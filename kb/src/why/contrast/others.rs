@@ -9,7 +9,7 @@ use crate::state::tunable::Weights;
 const REACH: f64 = 1.01;
 
 /// Some of all ways.
-pub trait Ways {
+pub trait Ways: Sync {
     /// The best of them, if it costs no more than a limit; one that costs more may be found or not.
     fn best(&self, weights: &Weights, limit: f64) -> Option<Path>;
 

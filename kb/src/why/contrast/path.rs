@@ -1,6 +1,6 @@
 //! Ways as sums of what they pass, and the search for the best one at given weights.
 
-use std::cell::RefCell;
+use std::sync::{Mutex, OnceLock, PoisonError};
 
 use adit_planners::routes::{
     CompactGraph, CompactTree, DoorIndex, Goal, RoomIndex, RouteGraph, Start, Walking, Way,
@@ -74,19 +74,40 @@ pub struct Routes {
     pub start: Start,
     pub goal: Goal,
     searched: Searched,
+    /// How everything weighs at present, with the best way there, once it is known.
+    best: OnceLock<(Weights, Option<Path>)>,
 }
 
 enum Searched {
-    OnDoors(RefCell<CompactGraph>),
-    Measured(Box<RefCell<Measured>>),
+    OnDoors(Pool<CompactGraph>),
+    Measured(Box<Pool<Measured>>),
 }
 
-/// A graph that is weighed as it was asked for last.
+/// Graphs that are weighed as they were asked for last: one for each search that goes on at the same time.
+struct Pool<T> {
+    first: T,
+    idle: Mutex<Vec<T>>,
+}
+
+impl<T: Clone> Pool<T> {
+    fn new(first: T) -> Self {
+        Self { first, idle: Mutex::default() }
+    }
+
+    fn lend<R>(&self, to: impl FnOnce(&mut T) -> R) -> R {
+        let idle = || self.idle.lock().unwrap_or_else(PoisonError::into_inner);
+        let lent = idle().pop();
+        let mut lent = lent.unwrap_or_else(|| self.first.clone());
+        let result = to(&mut lent);
+        idle().push(lent);
+        result
+    }
+}
+
+#[derive(Clone)]
 struct Measured {
     graph: RouteGraph,
     now: Weights,
-    /// How it is at present, with the best way there.
-    first: Option<(Weights, Option<Path>)>,
 }
 
 impl Routes {
@@ -101,12 +122,12 @@ impl Routes {
 
     pub fn between(graph: &RouteGraph, start: Start, goal: Goal) -> Self {
         let searched = if let Some(compact) = CompactGraph::new(graph) {
-            Searched::OnDoors(RefCell::new(compact))
+            Searched::OnDoors(Pool::new(compact))
         } else {
-            let measured = Measured { graph: graph.clone(), now: Weights::of(graph), first: None };
-            Searched::Measured(Box::new(RefCell::new(measured)))
+            let measured = Measured { graph: graph.clone(), now: Weights::of(graph) };
+            Searched::Measured(Box::new(Pool::new(measured)))
         };
-        Self { start, goal, searched }
+        Self { start, goal, searched, best: OnceLock::new() }
     }
 
     /// Whether all hardness lies on the doors, so that a way is a list of doors.
@@ -118,20 +139,17 @@ impl Routes {
     pub fn driven_cost(&self, weights: &Weights) -> Option<f64> {
         match &self.searched {
             Searched::OnDoors(_) => Some(self.best(weights, f64::INFINITY)?.cost(weights)),
-            Searched::Measured(measured) => {
-                let mut measured = measured.borrow_mut();
+            Searched::Measured(graphs) => graphs.lend(|measured| {
                 let graph = measured.weighed(weights);
                 graph.way(&self.start, std::slice::from_ref(&self.goal)).map(|(_, way)| way.cost)
-            }
+            }),
         }
     }
 
     /// The best way where everything weighs so; `None` where there is none, or it costs more than a limit. How far off walls it
     /// keeps turns no choice, and is not looked at.
     pub fn best(&self, weights: &Weights, limit: f64) -> Option<Path> {
-        if let Searched::Measured(measured) = &self.searched
-            && let Some((_, path)) = measured.borrow().first.as_ref().filter(|(of, _)| of == weights)
-        {
+        if let Some((_, path)) = self.best.get().filter(|(present, _)| present == weights) {
             return path.clone();
         }
         self.best_between(weights, (&self.start, &self.goal), limit)
@@ -145,24 +163,22 @@ impl Routes {
         limit: f64,
     ) -> Option<Path> {
         match &self.searched {
-            Searched::OnDoors(graph) => {
-                let mut graph = graph.borrow_mut();
-                weigh(&mut graph, weights);
+            Searched::OnDoors(graphs) => graphs.lend(|graph| {
+                weigh(graph, weights);
                 best_of(&graph.tree(start), goal)
-            }
-            Searched::Measured(measured) => {
-                let mut measured = measured.borrow_mut();
+            }),
+            Searched::Measured(graphs) => graphs.lend(|measured| {
                 let graph = measured.weighed(weights);
                 let way = graph.tightest_way_within(start, std::slice::from_ref(goal), limit);
                 way.map(|(_, way)| Path::of(&way))
-            }
+            }),
         }
     }
 
     /// Keeps the best way as everything weighs in a graph, which is asked for again.
     pub fn know(&self, graph: &RouteGraph, best: Option<&Way>) {
-        if let Searched::Measured(measured) = &self.searched {
-            measured.borrow_mut().first = Some((Weights::of(graph), best.map(Path::of)));
+        if !self.is_on_doors() {
+            self.best.get_or_init(|| (Weights::of(graph), best.map(Path::of)));
         }
     }
 

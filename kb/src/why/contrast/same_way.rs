@@ -39,10 +39,13 @@ impl<'r> SameWay<'r> {
         let Some(runs) = &self.runs else { return self.path.doors == path.doors };
         let mut run = 0;
         let is_in = |run: usize, room: RoomIndex| runs.get(run).is_some_and(|run| run.contains(&room));
-        path.metres.iter().all(|&(room, _)| {
-            run += usize::from(!is_in(run, room));
-            is_in(run, room)
-        }) && run + 1 == runs.len()
+        let begins_so = path.metres.first().is_none_or(|&(room, _)| is_in(0, room));
+        begins_so
+            && path.metres.iter().all(|&(room, _)| {
+                run += usize::from(!is_in(run, room));
+                is_in(run, room)
+            })
+            && run + 1 == runs.len()
     }
 }
 

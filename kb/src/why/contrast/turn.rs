@@ -2,9 +2,10 @@
 
 mod first;
 
-use std::cell::Cell;
 use std::collections::BTreeMap;
 use std::sync::Arc;
+
+use rayon::prelude::*;
 
 use super::straight::{At, Straight, is_inside, slope};
 use super::{Contrast, End, Found, Known, Look, Path, Takeover};
@@ -35,14 +36,21 @@ enum Piece {
 /// The search for ends of cells.
 pub struct Turn<'t> {
     prober: &'t mut Prober,
+    along: Along<'t>,
+    is_exact: bool,
+}
+
+/// The search along values in which weights are linear; of several ones each has its own, so that none waits for another.
+#[derive(Clone)]
+struct Along<'t> {
     contrast: &'t dyn Contrast,
+    present: Arc<Weights>,
     /// How often values were tried.
-    spent: Cell<usize>,
+    spent: usize,
     /// What is best at present.
     here: Option<Look>,
     /// Ways that took over somewhere.
     rivals: Vec<Path>,
-    is_exact: bool,
 }
 
 impl<'t> Turn<'t> {
@@ -52,23 +60,15 @@ impl<'t> Turn<'t> {
             here.rival = contrast.rival(&prober.present, f64::INFINITY);
             here.least = here.rival.as_ref().map_or(f64::INFINITY, |(_, cost)| *cost);
         }
-        let (spent, rivals) = (Cell::new(0), Vec::new());
-        Self { prober, contrast, spent, here, rivals, is_exact: true }
-    }
-
-    fn spend(&self) {
-        self.spent.set(self.spent.get() + 1);
-    }
-
-    /// Whether enough was tried for one answer, so that it comes in time, and is the same on each machine.
-    fn is_over(&self) -> bool {
-        self.spent.get() >= PATIENCE
+        let present = Arc::clone(&prober.present);
+        let along = Along { contrast, present, spent: 0, here, rivals: Vec::new() };
+        Self { prober, along, is_exact: true }
     }
 
     /// How much a cell would have to change, as a share of what it is, were both ways to be driven as now: a guess, to look at
     /// likely ones first.
     pub fn guess(&self, course: &Course) -> f64 {
-        let Some(Look { own: Some((own, cost)), rival: Some((rival, dearer)), .. }) = &self.here else {
+        let Some(Look { own: Some((own, cost)), rival: Some((rival, dearer)), .. }) = &self.along.here else {
             return f64::INFINITY;
         };
         let lever = &course.lever;
@@ -79,37 +79,46 @@ impl<'t> Turn<'t> {
         if is_possible { change.abs() / lever.scale() } else { f64::INFINITY }
     }
 
-    /// The first value on one side of the present one at which the ways that hold give way.
+    /// The first values on sides of the present ones at which the ways that hold give way.
     ///
     /// # Arguments
-    /// `within` is how far it is looked for, as a share of the present value; `None`: as far as there are values.
-    pub fn end(&mut self, course: &Course, side: Side, within: Option<f64>) -> Result<Found> {
-        self.is_exact = true;
-        let lever = &course.lever;
-        let limit = side.limit(lever, within);
-        let piece = match &course.lines[side as usize] {
-            _ if limit.total_cmp(&lever.value).is_eq() || !course.weighs => Piece::Nothing,
-            Some(line) if line.is_level() => Piece::Nothing,
-            Some(line) => self.on_line(line, lever.value, limit),
-            None => {
-                let piece = self.by_pieces(lever, limit);
-                self.prober.restore(lever)?;
+    /// `within` is how far they are looked for, as a share of the present value; `None`: as far as there are values.
+    pub fn ends(&mut self, asked: &[(&Course, Side)], within: Option<f64>) -> Result<Vec<Found>> {
+        let (begun, before) = (self.along.clone(), self.along.spent);
+        let at_once = |&(course, side): &(&Course, Side)| {
+            let mut along = begun.clone();
+            let piece = along.side(course, side, within)?;
+            Some((piece, along))
+        };
+        let found: Vec<Option<(Piece, Along)>> = asked.par_iter().map(at_once).collect();
+        let mut all = Vec::new();
+        for (&(course, side), found) in asked.iter().zip(found) {
+            self.is_exact = true;
+            let piece = if let Some((piece, along)) = found {
+                self.along.join(along, before);
+                piece
+            } else {
+                let piece = self.by_pieces(&course.lever, side.limit(&course.lever, within));
+                self.prober.restore(&course.lever)?;
                 piece?
-            }
-        };
-        let (end, is_whole) = match piece {
-            Piece::End(end) => (Some(end), true),
-            Piece::Nothing => (None, true),
-            Piece::Unknown => (None, false),
-        };
-        Ok(Found { end, is_exact: self.is_exact, is_whole })
+            };
+            let (end, is_whole) = match piece {
+                Piece::End(end) => (Some(end), true),
+                Piece::Nothing => (None, true),
+                Piece::Unknown => (None, false),
+            };
+            all.push(Found { end, is_exact: self.is_exact, is_whole });
+        }
+        Ok(all)
     }
 
     /// Of some cells those that have no end below, found by looking at many of them at once: where all of them fall together and
     /// the others still cost more than the way that holds does now, none of them does it alone.
     pub fn without_end_below(&mut self, courses: &[Arc<Course>], within: Option<f64>) -> Vec<bool> {
         let mut never = vec![false; courses.len()];
-        let Some(Look { own: Some((_, cost)), is_turned: false, .. }) = &self.here else { return never };
+        let Some(Look { own: Some((_, cost)), is_turned: false, .. }) = &self.along.here else {
+            return never;
+        };
         let cost = *cost;
         let lines = |course: &Arc<Course>| course.lines[Side::Below as usize].is_some();
         // together where they weigh the same kind of thing: where all weighs nothing, nothing is told apart
@@ -118,52 +127,20 @@ impl<'t> Turn<'t> {
             let lever = &courses[of].lever;
             groups.entry((&lever.class, &lever.column)).or_default().push(of);
         }
-        for mut asked in groups.into_values() {
-            while !asked.is_empty() && !self.is_over() {
-                let before = asked.len();
-                if !self.is_one_alone(courses, &mut asked, within, cost) {
-                    for &of in &asked {
-                        never[of] = true;
-                    }
-                    break;
-                }
-                if asked.len() == before {
-                    break;
-                }
+        let groups: Vec<Vec<usize>> = groups.into_values().collect();
+        let (begun, before) = (self.along.clone(), self.along.spent);
+        let alone = |group: &Vec<usize>| {
+            let mut along = begun.clone();
+            (along.without_end_below(courses, group.clone(), (within, cost)), along)
+        };
+        let found: Vec<(Vec<usize>, Along)> = groups.par_iter().map(alone).collect();
+        for (group, along) in found {
+            for of in group {
+                never[of] = true;
             }
+            self.along.join(along, before);
         }
         never
-    }
-
-    /// Whether the others may win where some cells fall together: those that have no part in it are asked no more.
-    fn is_one_alone(
-        &mut self,
-        courses: &[Arc<Course>],
-        asked: &mut Vec<usize>,
-        within: Option<f64>,
-        cost: f64,
-    ) -> bool {
-        let limit = |of: usize| Side::Below.limit(&courses[of].lever, within);
-        let line = |of: usize| courses[of].lines[Side::Below as usize].as_ref();
-        let mut least = Weights::clone(&self.prober.present);
-        for &of in asked.iter() {
-            if let Some(line) = line(of) {
-                line.lower(limit(of), &mut least);
-            }
-        }
-        self.spend();
-        let rival = self.contrast.rival(&least, cost);
-        let Some((path, _)) = rival.filter(|(_, rival)| self.contrast.is_turned(cost, *rival)) else {
-            return false;
-        };
-        asked.retain(|&of| {
-            let Some(line) = line(of) else { return true };
-            let mut lower = Weights::clone(&self.prober.present);
-            line.lower(limit(of), &mut lower);
-            path.cost(&lower) >= path.cost(&self.prober.present)
-        });
-        self.remember(path);
-        true
     }
 
     fn by_pieces(&mut self, lever: &Lever, limit: f64) -> Result<Piece> {
@@ -178,21 +155,14 @@ impl<'t> Turn<'t> {
         Ok(Piece::Nothing)
     }
 
-    /// Keeps a way that may take over elsewhere, too.
-    fn remember(&mut self, path: Path) {
-        if !self.rivals.contains(&path) {
-            self.rivals.push(path);
-        }
-    }
-
     fn probe(&mut self, lever: &Lever, value: f64) -> Result<Probe> {
-        self.spend();
+        self.along.spend();
         self.prober.at(lever, value)
     }
 
     /// The first value from `from` on, up to `to` and with it: rules may switch there.
     fn piece(&mut self, lever: &Lever, from: f64, to: f64) -> Result<Piece> {
-        if self.is_over() {
+        if self.along.is_over() {
             return Ok(Piece::Unknown);
         }
         let values = [0.125, 0.5, 0.875].map(|share| from + (to - from) * share);
@@ -215,7 +185,7 @@ impl<'t> Turn<'t> {
         };
         let found = match line {
             None => Piece::Nothing,
-            Some(Some(line)) => self.on_line(&line, from, to),
+            Some(Some(line)) => self.along.on_line(&line, from, to),
             Some(None) => self.tried(lever, from, to)?,
         };
         if !matches!(found, Piece::Nothing) {
@@ -224,7 +194,7 @@ impl<'t> Turn<'t> {
         let is_last = to.total_cmp(&lowest(lever)).is_eq() || to.abs() >= LARGEST;
         let beyond = self.beyond(lever, to)?;
         // at the last value that a cell may have, what costs the same takes nothing over
-        if is_last && matches!(beyond, Some(Takeover::Way(..))) && self.contrast.is_turned(1.0, 1.0) {
+        if is_last && matches!(beyond, Some(Takeover::Way(..))) && self.along.contrast.is_turned(1.0, 1.0) {
             return Ok(Piece::Nothing);
         }
         Ok(beyond
@@ -240,14 +210,116 @@ impl<'t> Turn<'t> {
         if weights == *self.prober.present {
             return Ok(None);
         }
-        Ok(self.look(&weights).and_then(Look::takeover))
+        Ok(self.along.look(&weights).and_then(Look::takeover))
+    }
+
+    /// Where weights are not linear: some values are tried, then halved.
+    fn tried(&mut self, lever: &Lever, from: f64, to: f64) -> Result<Piece> {
+        self.is_exact = false;
+        let mut good = from;
+        for part in 1..=TRIED {
+            let mut bad = from + (to - from) * part as f64 / (TRIED + 1) as f64;
+            let Some(mut beyond) = self.beyond(lever, bad)? else {
+                good = bad;
+                continue;
+            };
+            while (bad - good).abs() > (0.1 * self.along.hair(good)).max(1e-7 * good.abs().max(1e-3)) {
+                if self.along.is_over() {
+                    return Ok(Piece::Unknown);
+                }
+                let middle = f64::midpoint(good, bad);
+                match self.beyond(lever, middle)? {
+                    Some(found) => (bad, beyond) = (middle, found),
+                    None => good = middle,
+                }
+            }
+            return Ok(Piece::End(End { won_at: bad, ..End::at(good, beyond) }));
+        }
+        Ok(Piece::Nothing)
+    }
+}
+
+impl Along<'_> {
+    fn spend(&mut self) {
+        self.spent += 1;
+    }
+
+    /// Whether enough was tried for one answer, so that it comes in time, and is the same on each machine.
+    fn is_over(&self) -> bool {
+        self.spent >= PATIENCE
+    }
+
+    /// Keeps a way that may take over elsewhere, too.
+    fn remember(&mut self, path: Path) {
+        if !self.rivals.contains(&path) {
+            self.rivals.push(path);
+        }
+    }
+
+    /// Takes over what another one found.
+    ///
+    /// # Arguments
+    /// `before` is how often values had been tried when it began.
+    fn join(&mut self, other: Self, before: usize) {
+        self.spent += other.spent.saturating_sub(before);
+        for path in other.rivals {
+            self.remember(path);
+        }
+    }
+
+    /// What one side of a cell shows; `None` where weights are not linear.
+    fn side(&mut self, course: &Course, side: Side, within: Option<f64>) -> Option<Piece> {
+        let lever = &course.lever;
+        let limit = side.limit(lever, within);
+        match &course.lines[side as usize] {
+            _ if limit.total_cmp(&lever.value).is_eq() || !course.weighs => Some(Piece::Nothing),
+            Some(line) if line.is_level() => Some(Piece::Nothing),
+            Some(line) => Some(self.on_line(line, lever.value, limit)),
+            None => None,
+        }
+    }
+
+    /// Of some cells those that have no end below.
+    fn without_end_below(
+        &mut self,
+        courses: &[Arc<Course>],
+        mut asked: Vec<usize>,
+        (within, cost): (Option<f64>, f64),
+    ) -> Vec<usize> {
+        let limit = |of: usize| Side::Below.limit(&courses[of].lever, within);
+        let line = |of: usize| courses[of].lines[Side::Below as usize].as_ref();
+        while !asked.is_empty() && !self.is_over() {
+            let mut least = Weights::clone(&self.present);
+            for &of in &asked {
+                if let Some(line) = line(of) {
+                    line.lower(limit(of), &mut least);
+                }
+            }
+            self.spend();
+            let rival = self.contrast.rival(&least, cost);
+            let Some((path, _)) = rival.filter(|(_, rival)| self.contrast.is_turned(cost, *rival)) else {
+                return asked;
+            };
+            let before = asked.len();
+            asked.retain(|&of| {
+                let Some(line) = line(of) else { return true };
+                let mut lower = Weights::clone(&self.present);
+                line.lower(limit(of), &mut lower);
+                path.cost(&lower) >= path.cost(&self.present)
+            });
+            self.remember(path);
+            if asked.len() == before {
+                break;
+            }
+        }
+        Vec::new()
     }
 
     /// The first value of a piece in which weights are linear.
     fn on_line(&mut self, line: &Line, from: f64, to: f64) -> Piece {
         let (Some(nearly), Some(farly)) = (line.at(from), line.at(to)) else { return Piece::Unknown };
         let near = match &self.here {
-            Some(here) if nearly == *self.prober.present => Some(here.clone()),
+            Some(here) if nearly == *self.present => Some(here.clone()),
             _ => self.look(&nearly),
         };
         let Some(near) = near else { return Piece::Nothing };
@@ -311,13 +383,13 @@ impl<'t> Turn<'t> {
         self.contrast.hair() * value.abs().max(0.1)
     }
 
-    fn look(&self, weights: &Weights) -> Option<Look> {
+    fn look(&mut self, weights: &Weights) -> Option<Look> {
         self.spend();
         self.contrast.look(weights)
     }
 
     /// A look at a value beyond another one.
-    fn look_at(&self, line: &Line, value: f64, (near, is_rising): (&At, bool)) -> Option<At> {
+    fn look_at(&mut self, line: &Line, value: f64, (near, is_rising): (&At, bool)) -> Option<At> {
         let weights = line.at(value)?;
         self.spend();
         let look = match &near.look.own {
@@ -330,33 +402,8 @@ impl<'t> Turn<'t> {
         Some(At { value, look: look? })
     }
 
-    fn glance_at(&self, line: &Line, value: f64) -> Option<At> {
+    fn glance_at(&mut self, line: &Line, value: f64) -> Option<At> {
         self.spend();
         Some(At { value, look: self.contrast.glance(&line.at(value)?)? })
-    }
-
-    /// Where weights are not linear: some values are tried, then halved.
-    fn tried(&mut self, lever: &Lever, from: f64, to: f64) -> Result<Piece> {
-        self.is_exact = false;
-        let mut good = from;
-        for part in 1..=TRIED {
-            let mut bad = from + (to - from) * part as f64 / (TRIED + 1) as f64;
-            let Some(mut beyond) = self.beyond(lever, bad)? else {
-                good = bad;
-                continue;
-            };
-            while (bad - good).abs() > (0.1 * self.hair(good)).max(1e-7 * good.abs().max(1e-3)) {
-                if self.is_over() {
-                    return Ok(Piece::Unknown);
-                }
-                let middle = f64::midpoint(good, bad);
-                match self.beyond(lever, middle)? {
-                    Some(found) => (bad, beyond) = (middle, found),
-                    None => good = middle,
-                }
-            }
-            return Ok(Piece::End(End { won_at: bad, ..End::at(good, beyond) }));
-        }
-        Ok(Piece::Nothing)
     }
 }

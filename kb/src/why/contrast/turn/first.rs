@@ -1,6 +1,6 @@
 //! The first value at which others win, where weights are linear in it: lines of the ways that are best at two values lead to it.
 
-use super::{Piece, Turn};
+use super::{Along, Piece};
 use crate::state::tunable::Line;
 use crate::why::contrast::straight::{At, Straight, is_inside};
 use crate::why::contrast::{End, Path, Takeover};
@@ -11,12 +11,12 @@ const ROUNDS: usize = 40;
 /// Ways that bend otherwise at another value cost more at this one by such a share at most.
 const BENT: f64 = 2e-5;
 
-impl Turn<'_> {
+impl Along<'_> {
     /// The first value between two at which the others win; at `near` they have not.
     ///
     /// # Arguments
     /// `is_rising` says that nothing gets easier from `near` to `far`.
-    pub(super) fn first(&self, line: &Line, near: At, far: At, is_rising: bool) -> Piece {
+    pub(super) fn first(&mut self, line: &Line, near: At, far: At, is_rising: bool) -> Piece {
         // the nearest interval is the last; what lies beyond an end is not looked at
         let (mut waiting, mut end) = (vec![(near, far)], None);
         while let Some((near, far)) = waiting.pop() {
@@ -45,7 +45,7 @@ impl Turn<'_> {
 
     /// The end between a value at which the others have not won and one at which they have, and the last value before it that was
     /// looked at.
-    fn narrowed(&self, line: &Line, near: &At, far: At) -> Option<(At, End)> {
+    fn narrowed(&mut self, line: &Line, near: &At, far: At) -> Option<(At, End)> {
         let (mut before, mut beyond) = (near.clone(), far);
         for round in 0..ROUNDS {
             if self.is_over() {
