@@ -196,7 +196,7 @@ impl KnowledgeBase {
             knowledge.register_course(course);
         }
         if mode != Rooms::Nothing {
-            knowledge.register(Box::new(SpacesAndDoorways));
+            knowledge.register(Box::<SpacesAndDoorways>::default());
         }
         match mode {
             Rooms::Nothing => {}

@@ -1,13 +1,14 @@
 //! The planner that asserts spaces and doorways.
 
 use std::fmt::Write as _;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use super::{Doorway, Space, Spaces};
 use crate::facts::{Column, Facts, Table};
 use crate::geometry::{Point, Rect};
 use crate::known::keys;
 use crate::planner::{Planner, PlannerError, Signature};
-use crate::world::World;
+use crate::world::{NamedDoor, Obstacle, Occupancy, World};
 
 const NAME: &str = "spaces and doorways";
 
@@ -43,8 +44,43 @@ const GIVES: [&str; 22] = [
 /// `called` (the named door that lies there), the two spaces, its ends, its middle, `width`, and `height`, the lowest bridge
 /// over it, unknown where there is none. Whether either is `closed`, and from which space alone (`closed_from`, by name), is for
 /// rules, and for whoever tells it. A named door is a doorway wherever it is drawn.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct SpacesAndDoorways;
+///
+/// What was found last is kept for as long as walls, obstacles and named doors stay where they are: areas and places only name it.
+#[derive(Debug, Default)]
+pub struct SpacesAndDoorways(Mutex<Option<(Walls, Arc<Spaces>)>>);
+
+/// What spaces and doorways hang on.
+#[derive(Debug, PartialEq)]
+struct Walls {
+    bounds: Rect,
+    obstacles: Vec<Obstacle>,
+    named_doors: Vec<NamedDoor>,
+    occupancy: Option<Occupancy>,
+}
+
+impl Walls {
+    fn of(world: &World) -> Self {
+        Self {
+            bounds: world.bounds,
+            obstacles: world.obstacles.clone(),
+            named_doors: world.named_doors.clone(),
+            occupancy: world.occupancy.clone(),
+        }
+    }
+}
+
+impl SpacesAndDoorways {
+    fn found(&self, world: &World) -> Result<Arc<Spaces>, String> {
+        let walls = Walls::of(world);
+        let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((_, found)) = kept.as_ref().filter(|(of, _)| *of == walls) {
+            return Ok(Arc::clone(found));
+        }
+        let found = Arc::new(Spaces::of(world)?);
+        *kept = Some((walls, Arc::clone(&found)));
+        Ok(found)
+    }
+}
 
 impl Planner for SpacesAndDoorways {
     fn name(&self) -> &'static str {
@@ -57,7 +93,7 @@ impl Planner for SpacesAndDoorways {
 
     fn facts(&self, world: &World, _known: &Facts) -> Result<Facts, PlannerError> {
         let found =
-            Spaces::of(world).map_err(|what| PlannerError::World { planner: NAME.to_owned(), what })?;
+            self.found(world).map_err(|what| PlannerError::World { planner: NAME.to_owned(), what })?;
         Ok(Facts::from([
             ("SPACES".to_owned(), spaces(world, &found)),
             ("DOORWAYS".to_owned(), doorways(world, &found.doorways)),
