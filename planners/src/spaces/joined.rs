@@ -35,7 +35,7 @@ const WIDER_THAN_BROAD: f64 = 1.3;
 const REACH: f64 = 4.0;
 
 /// What stands alone and is no larger, metres, makes nothing narrow: a hall with a pillar is as broad as one without.
-const STANDS_ALONE_M: f64 = 2.5;
+const ALONE_M: f64 = 2.5;
 
 /// Where breadth is looked for, metres from each other.
 const SAMPLE_M: f64 = 0.15;
@@ -84,7 +84,7 @@ pub(super) fn joined(floor: &Occupancy, found: &Openings) -> Vec<u32> {
     let mut cut = closed.clone();
     close(&mut cut, found.mouths.iter().map(|(mouth, _)| mouth));
     let mut swept = floor.clone();
-    clear_away(&mut swept, STANDS_ALONE_M);
+    clear_away(&mut swept, ALONE_M);
     close(&mut swept, found.closed());
     let (mut of_cell, pieces) = pieces([&closed, &swept], &cut);
     flood(&closed, &mut of_cell);

@@ -506,7 +506,7 @@ fn what_cannot_be_closed_is_refused_with_what_was_meant() {
         ("doorway 9999", "nothing called `doorway 9999`"),
         ("-50,3@90", "is not on the floor"),
         ("10,8.5@north", "nothing called `10,8.5@north`"),
-        ("31,22", "m away"),
+        ("31,20", "m away"),
     ] {
         site.adit("close", &[what]).expecting(2).complains(&[said]);
     }
