@@ -329,13 +329,13 @@ fn check_firm(desk: &Desk, firm: &Firm) {
                 (value, desk.route_with(cell, value, ask))
             };
             let is_same = |there: &Answer| course(there).0 == now.0;
+            let as_now = |value: f64| driven + (value - of.value) * amount(&route, of);
             // where what is driven costs the same as now, to five digits, either way is as good
-            let is_tie = |(value, there): &(f64, Answer)| {
-                let as_now = driven + (value - of.value) * amount(&route, of);
-                is_near(there.cost.unwrap(), as_now, TIE)
-            };
+            let is_tie = |(value, there): &(f64, Answer)| is_near(there.cost.unwrap(), as_now(*value), TIE);
             let near = route_at(-NEAR);
-            let is_kept = is_same(&near.1) || is_tie(&near) && is_same(&route_at(-WIDE).1);
+            // what is driven instead may be dearer than the way as it is now: then that is still the best one
+            let is_dearer = near.1.cost.unwrap() > as_now(near.0) * (1.0 + TIE);
+            let is_kept = is_same(&near.1) || is_dearer || is_tie(&near) && is_same(&route_at(-WIDE).1);
             desk.claim(is_kept, || format!("{ask:?}: within {of:?}"));
             let is_gone = |(_, there): &(f64, Answer)| course(there) != now;
             let near = route_at(NEAR);
