@@ -71,7 +71,7 @@ pub struct State {
     /// Routes between places, as far as anybody asked for them.
     pub(crate) known: Arc<Known>,
     /// What cells of tables weigh, as far as anybody asked for reasons.
-    pub(crate) tunable: Arc<tunable::Courses>,
+    pub(crate) tunable: Arc<tunable::Effects>,
     pub(crate) patience: Duration,
     /// How far ends of routes may be moved to where something fits, metres; `None`: not at all.
     pub(crate) within: Option<f64>,

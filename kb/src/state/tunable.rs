@@ -12,8 +12,11 @@ pub use lever::{LARGEST, LAST, Lever, Side, least, lowest};
 pub use linear::Line;
 pub use weighing::Weights;
 
+/// So many weights of rooms and doors are kept for a class at most, some 70 MB; what is more is found anew each time.
+const MOST_KEPT: usize = 4_000_000;
+
 /// What the values of a cell make of all weights.
-pub struct Course {
+pub struct Effect {
     pub lever: Lever,
     /// Below and above the present value; `None` where weights are not linear all the way.
     pub lines: [Option<Line>; 2],
@@ -23,15 +26,19 @@ pub struct Course {
 
 /// The cells that weigh something, by class, as far as anybody asked.
 #[derive(Default)]
-pub struct Courses(Mutex<BTreeMap<String, Vec<Arc<Course>>>>);
+pub struct Effects(Mutex<BTreeMap<String, Vec<Arc<Effect>>>>);
 
-impl Courses {
+impl Effects {
     /// The cells of a class that weigh something, if they are known.
-    pub fn of(&self, class: &str) -> Option<Vec<Arc<Course>>> {
+    pub fn of(&self, class: &str) -> Option<Vec<Arc<Effect>>> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner).get(class).cloned()
     }
 
-    pub fn keep(&self, class: &str, found: Vec<Arc<Course>>) {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner).insert(class.to_owned(), found);
+    /// Keeps what was found, unless it is very much.
+    pub fn keep(&self, class: &str, found: &[Arc<Effect>]) {
+        let size: usize = found.iter().flat_map(|effect| &effect.lines).flatten().map(Line::size).sum();
+        if size <= MOST_KEPT {
+            self.0.lock().unwrap_or_else(PoisonError::into_inner).insert(class.to_owned(), found.to_vec());
+        }
     }
 }

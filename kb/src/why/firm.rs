@@ -93,19 +93,19 @@ impl State {
         let Some(path) = routes.best(&prober.present, f64::INFINITY) else { return Ok(firm) };
         firm.cost = Some(best.driven.cost);
         let same = SameWay::new(&prober, &routes, path);
-        let courses = prober.courses()?;
+        let effects = prober.effects()?;
         let mut turn = Turn::new(&mut prober, &same);
-        let never = turn.without_end_below(&courses, None);
-        let weighing: Vec<_> = courses.iter().zip(never).filter(|(course, _)| course.weighs).collect();
-        let above = weighing.iter().map(|(course, _)| (&***course, Side::Above));
-        let below = weighing.iter().filter(|(_, never)| !never).map(|(course, _)| (&***course, Side::Below));
+        let never = turn.without_end_below(&effects, None);
+        let weighing: Vec<_> = effects.iter().zip(never).filter(|(effect, _)| effect.weighs).collect();
+        let above = weighing.iter().map(|(effect, _)| (&***effect, Side::Above));
+        let below = weighing.iter().filter(|(_, never)| !never).map(|(effect, _)| (&***effect, Side::Below));
         let mut ends = turn.ends(&above.chain(below).collect::<Vec<_>>(), None)?;
         let mut below = ends.split_off(weighing.len()).into_iter();
         let mut found = Vec::new();
-        for ((course, never), above) in weighing.into_iter().zip(ends) {
+        for ((effect, never), above) in weighing.into_iter().zip(ends) {
             let below = if never { None } else { below.next() }.unwrap_or_else(Found::nothing);
             firm.truncated |= !below.is_whole || !above.is_whole;
-            found.push((&course.lever, [below, above]));
+            found.push((&effect.lever, [below, above]));
         }
         for (lever, sides) in found {
             firm.cells.push(FirmCell::new(&mut prober, &same, lever, sides)?);

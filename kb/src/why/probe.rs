@@ -6,7 +6,7 @@
 //! writes a second graph, and has planners cut rooms anew where a probe only says that they would. A cell is tried some
 //! hundred times for one answer, so the probe leaves that out; what it shares with the step stands once.
 
-mod course;
+mod effect;
 mod levers;
 
 use std::sync::Arc;

@@ -219,14 +219,14 @@ impl Holds {
             }
         };
         let beside = Beside::new(routes, others);
-        let courses = prober.courses_in("ROBOTS")?;
-        for course in courses {
-            if !is_own(&course.lever, &prober.fork) {
+        let effects = prober.effects_in("ROBOTS")?;
+        for effect in effects {
+            if !is_own(&effect.lever, &prober.fork) {
                 continue;
             }
             let mut turn = Turn::new(prober, &beside);
-            let lever = &course.lever;
-            let sides = turn.ends(&[(&course, Side::Below), (&course, Side::Above)], None)?;
+            let lever = &effect.lever;
+            let sides = turn.ends(&[(&effect, Side::Below), (&effect, Side::Above)], None)?;
             let exact = sides.iter().all(|side| side.is_exact);
             let mut ends =
                 sides.into_iter().map(|side| side.end.filter(|end| end.cost().is_some()).map(|end| end.at));

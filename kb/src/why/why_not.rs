@@ -20,7 +20,7 @@ use crate::answer::{self, Answer};
 use crate::error::Result;
 use crate::live::Live;
 use crate::state::State;
-use crate::state::tunable::{Course, Side};
+use crate::state::tunable::{Effect, Side};
 use crate::why::Reasoned;
 use crate::why::probe::Prober;
 use crate::why::subject::Subject;
@@ -202,26 +202,26 @@ impl WhyNot {
 /// The cell that has to change least, as a share of what it is, for a way through to cost no more than any other; and
 /// whether time was over before all were looked at.
 fn would_win(prober: &mut Prober, routes: &Routes, others: &dyn Ways) -> Result<(Option<WouldWin>, bool)> {
-    let courses = prober.courses()?;
+    let effects = prober.effects()?;
     let beside = Beside::new(routes, others);
     let mut turn = Turn::new(prober, &beside);
-    let guess = |course: Arc<Course>| (turn.guess(&course), course);
-    let mut guessed: Vec<(f64, Arc<Course>)> = courses.into_iter().map(guess).collect();
+    let guess = |effect: Arc<Effect>| (turn.guess(&effect), effect);
+    let mut guessed: Vec<(f64, Arc<Effect>)> = effects.into_iter().map(guess).collect();
     guessed.sort_by(|(one, _), (two, _)| one.total_cmp(two));
-    let mut courses: Vec<Arc<Course>> = guessed.into_iter().map(|(_, course)| course).collect();
+    let mut effects: Vec<Arc<Effect>> = guessed.into_iter().map(|(_, effect)| effect).collect();
     let (mut found, mut least, mut is_cut) = (None, None, false);
     // the likeliest first; whatever it shows, the others are not looked at beyond it
-    let others = courses.split_off(1.min(courses.len()));
-    for courses in [courses, others] {
-        let never = turn.without_end_below(&courses, least);
-        let sides = |(course, never): (&'_ Arc<Course>, bool)| {
+    let others = effects.split_off(1.min(effects.len()));
+    for effects in [effects, others] {
+        let never = turn.without_end_below(&effects, least);
+        let sides = |(effect, never): (&'_ Arc<Effect>, bool)| {
             let below = (!never).then_some(Side::Below);
-            below.into_iter().chain([Side::Above]).map(|side| (Arc::clone(course), side)).collect::<Vec<_>>()
+            below.into_iter().chain([Side::Above]).map(|side| (Arc::clone(effect), side)).collect::<Vec<_>>()
         };
-        let asked: Vec<(Arc<Course>, Side)> = courses.iter().zip(never).flat_map(sides).collect();
-        let within: Vec<(&Course, Side)> = asked.iter().map(|(course, side)| (&**course, *side)).collect();
-        for ((course, _), side) in asked.iter().zip(turn.ends(&within, least)?) {
-            let lever = &course.lever;
+        let asked: Vec<(Arc<Effect>, Side)> = effects.iter().zip(never).flat_map(sides).collect();
+        let within: Vec<(&Effect, Side)> = asked.iter().map(|(effect, side)| (&**effect, *side)).collect();
+        for ((effect, _), side) in asked.iter().zip(turn.ends(&within, least)?) {
+            let lever = &effect.lever;
             // between values that were tried there may be one that would do
             is_cut |= !side.is_whole || !side.is_exact && side.end.is_none();
             let Some(end) = side.end else { continue };

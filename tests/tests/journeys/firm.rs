@@ -296,3 +296,24 @@ fn rules_that_square_a_hardness_are_answered_by_trying_and_that_is_said() {
         assert_eq!(doors(&there), own);
     }
 }
+
+/// A fleet in which each robot has a hardness of its own: rules may switch at each of them, for each.
+#[test]
+fn of_very_many_numbers_not_all_are_looked_at_and_that_is_said() {
+    let site = TestSite::example("starter");
+    let row = |robot: usize| {
+        let hardness = 1.0 + 0.01 * robot as f64;
+        format!(
+            "[[robots]]\nrobot = \"r{robot}\"\nstate = \"UP\"\naction = \"WALK\"\nheight = 1.7\nwidth = 0.6\nhardness = {hardness}\n"
+        )
+    };
+    site.write("site.toml", "map = \"map.toml\"\nrobots = \"robots.toml\"\n");
+    site.write("robots.toml", (0..150).map(row).collect::<String>());
+    let site = site.built();
+    let firm = site.adit("firm", &["4,4", "window", "--robot", "r7"]).expecting(0).stdout;
+    assert!(firm.contains("costs 8.992"), "{firm}");
+    assert!(firm.contains("the time was over before all cells were looked at"), "{firm}");
+    let not =
+        site.adit("why-not", &["4,4", "window", "--robot", "r7", "--through", "10,2"]).expecting(0).stdout;
+    assert!(not.contains("not all were looked at to the end"), "{not}");
+}

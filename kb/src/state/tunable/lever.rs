@@ -33,6 +33,17 @@ impl Lever {
         breaks.push(limit);
         breaks
     }
+
+    /// The values by which it shows whether weights are linear up to a limit, outwards: where rules may switch, and between.
+    pub fn values(&self, limit: f64) -> Vec<f64> {
+        let mut from = self.value;
+        let mut values = Vec::new();
+        for to in self.breaks(limit) {
+            values.extend([f64::midpoint(from, to), to]);
+            from = to;
+        }
+        values
+    }
 }
 
 /// To which side of the present value.

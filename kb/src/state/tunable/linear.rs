@@ -43,9 +43,14 @@ impl Line {
         ]
     }
 
+    /// How many rooms and doors weigh otherwise.
+    pub fn size(&self) -> usize {
+        self.rooms.len() + self.doors.len()
+    }
+
     /// Whether everything weighs the same at both values.
     pub fn is_level(&self) -> bool {
-        self.rooms.is_empty() && self.doors.is_empty()
+        self.size() == 0
     }
 
     /// Whether weights at a value are where the line says.

@@ -11,8 +11,7 @@ pub trait Contrast: Sync {
 
     /// As [`look`](Self::look), where a way is known that holds, and what the others cost at least: if the others have not won
     /// against that way, they are not looked at further, nor is a better one that holds.
-    fn look_beside(&self, weights: &Weights, known: &Known) -> Option<Look> {
-        let _ = known;
+    fn look_beside(&self, weights: &Weights, _known: &Known) -> Option<Look> {
         self.look(weights)
     }
 

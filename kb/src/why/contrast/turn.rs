@@ -10,17 +10,21 @@ use rayon::prelude::*;
 use super::straight::{At, Straight, is_inside, slope};
 use super::{Contrast, End, Found, Known, Look, Path, Takeover};
 use crate::error::Result;
-use crate::state::tunable::{Course, LARGEST, LAST, Lever, Line, Side, Weights, lowest};
+use crate::state::tunable::{Effect, LARGEST, LAST, Lever, Line, Side, Weights, lowest};
 use crate::why::probe::{Probe, Prober};
 
 /// Values that are tried in a piece where weights are not linear.
 const TRIED: usize = 8;
 
-/// Values that are tried for one answer at most.
+/// Values that are tried for one answer, beyond which nothing is begun.
 const PATIENCE: usize = 2_000;
 
 /// So far beyond where two ways cost the same, as a share, the one is the best.
 const BEYOND: f64 = 1e-6;
+
+/// So many sides are looked at side by side. Each may spend what is left of [`PATIENCE`], and the next ones what is left then: it
+/// hangs on no machine.
+const AT_ONCE: usize = 8;
 
 /// So often the first value is guessed from ways that took over elsewhere.
 const GUESSES: usize = 4;
@@ -67,13 +71,13 @@ impl<'t> Turn<'t> {
 
     /// How much a cell would have to change, as a share of what it is, were both ways to be driven as now: a guess, to look at
     /// likely ones first.
-    pub fn guess(&self, course: &Course) -> f64 {
+    pub fn guess(&self, effect: &Effect) -> f64 {
         let Some(Look { own: Some((own, cost)), rival: Some((rival, dearer)), .. }) = &self.along.here else {
             return f64::INFINITY;
         };
-        let lever = &course.lever;
+        let lever = &effect.lever;
         let slope = |line: &Line| Some(slope(line, rival)? - slope(line, own)?);
-        let Some(slope) = course.lines.iter().flatten().find_map(slope) else { return f64::INFINITY };
+        let Some(slope) = effect.lines.iter().flatten().find_map(slope) else { return f64::INFINITY };
         let change = (cost - dearer) / slope;
         let is_possible = change.is_finite() && (lever.value < 0.0 || lever.value + change >= 0.0);
         if is_possible { change.abs() / lever.scale() } else { f64::INFINITY }
@@ -83,55 +87,57 @@ impl<'t> Turn<'t> {
     ///
     /// # Arguments
     /// `within` is how far they are looked for, as a share of the present value; `None`: as far as there are values.
-    pub fn ends(&mut self, asked: &[(&Course, Side)], within: Option<f64>) -> Result<Vec<Found>> {
-        let (begun, before) = (self.along.clone(), self.along.spent);
-        let at_once = |&(course, side): &(&Course, Side)| {
-            let mut along = begun.clone();
-            let piece = along.side(course, side, within)?;
-            Some((piece, along))
-        };
-        let found: Vec<Option<(Piece, Along)>> = asked.par_iter().map(at_once).collect();
+    pub fn ends(&mut self, asked: &[(&Effect, Side)], within: Option<f64>) -> Result<Vec<Found>> {
         let mut all = Vec::new();
-        for (&(course, side), found) in asked.iter().zip(found) {
-            self.is_exact = true;
-            let piece = if let Some((piece, along)) = found {
-                self.along.join(along, before);
-                piece
-            } else {
-                let piece = self.by_pieces(&course.lever, side.limit(&course.lever, within));
-                self.prober.restore(&course.lever)?;
-                piece?
+        for some in asked.chunks(AT_ONCE) {
+            let (begun, before) = (self.along.clone(), self.along.spent);
+            let at_once = |&(effect, side): &(&Effect, Side)| {
+                let mut along = begun.clone();
+                let piece = along.side(effect, side, within)?;
+                Some((piece, along))
             };
-            let (end, is_whole) = match piece {
-                Piece::End(end) => (Some(end), true),
-                Piece::Nothing => (None, true),
-                Piece::Unknown => (None, false),
-            };
-            all.push(Found { end, is_exact: self.is_exact, is_whole });
+            let found: Vec<Option<(Piece, Along)>> = some.par_iter().map(at_once).collect();
+            for (&(effect, side), found) in some.iter().zip(found) {
+                self.is_exact = true;
+                let piece = if let Some((piece, along)) = found {
+                    self.along.join(along, before);
+                    piece
+                } else {
+                    let piece = self.by_pieces(&effect.lever, side.limit(&effect.lever, within));
+                    self.prober.restore(&effect.lever)?;
+                    piece?
+                };
+                let (end, is_whole) = match piece {
+                    Piece::End(end) => (Some(end), true),
+                    Piece::Nothing => (None, true),
+                    Piece::Unknown => (None, false),
+                };
+                all.push(Found { end, is_exact: self.is_exact, is_whole });
+            }
         }
         Ok(all)
     }
 
     /// Of some cells those that have no end below, found by looking at many of them at once: where all of them fall together and
     /// the others still cost more than the way that holds does now, none of them does it alone.
-    pub fn without_end_below(&mut self, courses: &[Arc<Course>], within: Option<f64>) -> Vec<bool> {
-        let mut never = vec![false; courses.len()];
+    pub fn without_end_below(&mut self, effects: &[Arc<Effect>], within: Option<f64>) -> Vec<bool> {
+        let mut never = vec![false; effects.len()];
         let Some(Look { own: Some((_, cost)), is_turned: false, .. }) = &self.along.here else {
             return never;
         };
         let cost = *cost;
-        let lines = |course: &Arc<Course>| course.lines[Side::Below as usize].is_some();
+        let lines = |effect: &Arc<Effect>| effect.lines[Side::Below as usize].is_some();
         // together where they weigh the same kind of thing: where all weighs nothing, nothing is told apart
         let mut groups: BTreeMap<(&str, &str), Vec<usize>> = BTreeMap::new();
-        for of in (0..courses.len()).filter(|&of| courses[of].weighs && lines(&courses[of])) {
-            let lever = &courses[of].lever;
+        for of in (0..effects.len()).filter(|&of| effects[of].weighs && lines(&effects[of])) {
+            let lever = &effects[of].lever;
             groups.entry((&lever.class, &lever.column)).or_default().push(of);
         }
         let groups: Vec<Vec<usize>> = groups.into_values().collect();
         let (begun, before) = (self.along.clone(), self.along.spent);
         let alone = |group: &Vec<usize>| {
             let mut along = begun.clone();
-            (along.without_end_below(courses, group.clone(), (within, cost)), along)
+            (along.without_end_below(effects, group.clone(), (within, cost)), along)
         };
         let found: Vec<(Vec<usize>, Along)> = groups.par_iter().map(alone).collect();
         for (group, along) in found {
@@ -268,11 +274,11 @@ impl Along<'_> {
     }
 
     /// What one side of a cell shows; `None` where weights are not linear.
-    fn side(&mut self, course: &Course, side: Side, within: Option<f64>) -> Option<Piece> {
-        let lever = &course.lever;
+    fn side(&mut self, effect: &Effect, side: Side, within: Option<f64>) -> Option<Piece> {
+        let lever = &effect.lever;
         let limit = side.limit(lever, within);
-        match &course.lines[side as usize] {
-            _ if limit.total_cmp(&lever.value).is_eq() || !course.weighs => Some(Piece::Nothing),
+        match &effect.lines[side as usize] {
+            _ if limit.total_cmp(&lever.value).is_eq() || !effect.weighs => Some(Piece::Nothing),
             Some(line) if line.is_level() => Some(Piece::Nothing),
             Some(line) => Some(self.on_line(line, lever.value, limit)),
             None => None,
@@ -282,12 +288,12 @@ impl Along<'_> {
     /// Of some cells those that have no end below.
     fn without_end_below(
         &mut self,
-        courses: &[Arc<Course>],
+        effects: &[Arc<Effect>],
         mut asked: Vec<usize>,
         (within, cost): (Option<f64>, f64),
     ) -> Vec<usize> {
-        let limit = |of: usize| Side::Below.limit(&courses[of].lever, within);
-        let line = |of: usize| courses[of].lines[Side::Below as usize].as_ref();
+        let limit = |of: usize| Side::Below.limit(&effects[of].lever, within);
+        let line = |of: usize| effects[of].lines[Side::Below as usize].as_ref();
         while !asked.is_empty() && !self.is_over() {
             let mut least = Weights::clone(&self.present);
             for &of in &asked {
@@ -317,6 +323,9 @@ impl Along<'_> {
 
     /// The first value of a piece in which weights are linear.
     fn on_line(&mut self, line: &Line, from: f64, to: f64) -> Piece {
+        if self.is_over() {
+            return Piece::Unknown;
+        }
         let (Some(nearly), Some(farly)) = (line.at(from), line.at(to)) else { return Piece::Unknown };
         let near = match &self.here {
             Some(here) if nearly == *self.present => Some(here.clone()),
