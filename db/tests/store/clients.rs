@@ -73,3 +73,16 @@ steps = c.execute('SELECT * FROM action_sequence WHERE start = ? AND goal = ? OR
 assert len(steps) == 7 and abs(steps[-1][9] - 92.007434) < 1e-9, steps";
     python(script, store.path());
 }
+
+/// Its SQLite may be one of before 3.45, to which `json_valid(NULL)` is false.
+#[test]
+fn to_the_sqlite3_shell_a_room_without_an_outline_is_whole_and_may_be_written() {
+    let (_folder, store) = paper::site();
+    let statements =
+        "UPDATE rooms SET hardness = 2 WHERE outline IS NULL; SELECT changes() > 0; PRAGMA integrity_check";
+    let Some(output) = run(Command::new("sqlite3").arg(store.path()).arg(statements), "sqlite3") else {
+        return;
+    };
+    let told = [output.stdout, output.stderr].concat();
+    assert_eq!(String::from_utf8(told).unwrap(), "1\nok\n");
+}
