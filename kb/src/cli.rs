@@ -8,6 +8,7 @@ mod close;
 mod curve;
 mod demo;
 mod doctor;
+mod drive;
 mod experiment;
 mod export;
 mod firm;

@@ -4,6 +4,7 @@
 pub mod course;
 pub mod drive;
 pub mod floor;
+pub mod ground;
 pub mod journal;
 pub mod judge;
 pub mod keep;
@@ -11,6 +12,7 @@ pub mod learning;
 pub mod missions;
 pub mod reading;
 pub mod reporting;
+pub mod routed;
 mod story;
 mod stretches;
 pub mod told;

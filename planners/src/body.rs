@@ -2,8 +2,10 @@
 
 use crate::pose::Pose;
 
-/// A round robot with a rotating sonar, wheels that are counted, and a skirt that feels contact.
+/// A round robot with a rotating sonar, wheels (or legs) that are counted, and a skirt that feels contact. One that can change
+/// its shape is round in each.
 pub trait Body {
+    /// In the shape in which it is.
     fn radius_m(&self) -> f64;
 
     /// What it is to do from now on; what it was doing ends.
@@ -26,6 +28,8 @@ pub enum Command {
         /// How fast, metres a second. The body's own greatest speed is not exceeded.
         speed_m_s: f64,
     },
+    /// To change its shape where it stands: into which, by the number that body and navigator have agreed on.
+    Change { to: usize },
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,6 +43,8 @@ pub struct Sensed {
     pub contact: Option<Contact>,
     /// Whether the command is still being carried out.
     pub is_busy: bool,
+    /// The shape in which the body is; while it changes, the one that it had.
+    pub shape: usize,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]

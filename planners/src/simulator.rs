@@ -27,11 +27,13 @@ mod error;
 mod film;
 mod obstacle;
 mod settings;
+mod shape;
 
 pub use error::SimulationError;
 pub use film::{Film, Frame};
 pub use obstacle::{Course, Obstacle};
 pub use settings::Settings;
+pub use shape::{Shape, Shapes};
 
 use std::f64::consts::TAU;
 
@@ -40,7 +42,7 @@ use obstacle::Mover;
 
 use crate::body::{Body, Command, Contact, Reading, Sensed};
 use crate::geometry::tolerance::SNAP_M;
-use crate::geometry::{Point, RayGrid, Segment, polygon};
+use crate::geometry::{Point, RayGrid, Rect, Segment, polygon};
 use crate::pose::{Pose, wrapped};
 use crate::random::Random;
 
@@ -48,6 +50,9 @@ use crate::random::Random;
 #[derive(Clone, Debug)]
 pub struct Simulator {
     settings: Settings,
+    shapes: Shapes,
+    /// The shape in which it is.
+    shape: usize,
     walls: RayGrid,
     movers: Vec<Mover>,
     random: Random,
@@ -83,6 +88,10 @@ enum Task {
         speed_m_s: f64,
         scale: f64,
     },
+    Change {
+        to: usize,
+        left_s: f64,
+    },
 }
 
 /// One step of the wheels: what they count, and the truth.
@@ -104,6 +113,8 @@ impl Simulator {
     ) -> Result<Self, SimulationError> {
         check(walls, &obstacles, &settings, &start)?;
         let simulator = Self {
+            shapes: Shapes::one(&settings),
+            shape: 0,
             settings,
             walls: RayGrid::new(walls.to_vec()),
             movers: obstacles.into_iter().map(Mover::new).collect(),
@@ -117,9 +128,41 @@ impl Simulator {
         simulator.start_is_free().map(|()| simulator)
     }
 
+    /// The same robot at the same place, with these shapes, in one of them.
+    ///
+    /// # Errors
+    /// Where there is no such shape, a figure of one makes no sense, or the robot does not fit there in it.
+    pub fn in_shape(mut self, shapes: Shapes, shape: usize) -> Result<Self, SimulationError> {
+        shapes.check(shape)?;
+        (self.shapes, self.shape) = (shapes, shape);
+        self.start_is_free().map(|()| self)
+    }
+
     /// Where the robot really is.
     pub fn pose(&self) -> Pose {
         self.pose
+    }
+
+    /// The shape in which it is, by number.
+    pub fn shape(&self) -> usize {
+        self.shape
+    }
+
+    /// How deep something is within the robot, metres; below 0 where there is a gap. While it changes its shape, in either one.
+    pub fn overlap_m(&self) -> f64 {
+        let at = self.pose.at;
+        let sides = self.obstacles().flatten().chain(self.walls());
+        let nearest = sides.map(|side| side.distance(at)).fold(f64::INFINITY, f64::min);
+        let in_shape = |shape: usize| {
+            let Shape { radius_m, overhead, .. } = &self.shapes.all[shape];
+            let above = overhead.iter().map(|low| low.signed_distance(at)).fold(f64::INFINITY, f64::min);
+            radius_m - nearest.min(above)
+        };
+        let becoming = match self.task {
+            Task::Change { to, .. } => to,
+            _ => self.shape,
+        };
+        in_shape(self.shape).max(in_shape(becoming))
     }
 
     /// Where the wheels' count puts the robot, from the pose 0, 0, 0 at the beginning.
@@ -163,8 +206,15 @@ impl Simulator {
         hits.filter(|range| *range <= reach).chain(wall).min_by(f64::total_cmp)
     }
 
+    /// What it may touch besides walls that it can hear and obstacles.
+    fn overhead(&self) -> impl Iterator<Item = Segment> + '_ {
+        self.shapes.all[self.shape].overhead.iter().flat_map(Rect::sides)
+    }
+
     fn start_is_free(&self) -> Result<(), SimulationError> {
-        let (at, radius_m) = (self.pose.at, self.settings.radius_m);
+        let (at, radius_m) = (self.pose.at, self.radius_m());
+        let low = self.shapes.all[self.shape].overhead.iter();
+        let low = low.map(|low| (low.signed_distance(at).max(0.0), "what is too low for it".to_owned()));
         let walls = self.walls.segments().iter().enumerate();
         let walls = walls.map(|(i, wall)| (wall.distance(at), format!("wall {}", i + 1)));
         let obstacles = self.movers.iter().enumerate().map(|(i, mover)| {
@@ -174,7 +224,7 @@ impl Simulator {
                 format!("obstacle {}", i + 1),
             )
         });
-        let near = walls.chain(obstacles).find(|(gap, _)| *gap < radius_m + HAIR_M);
+        let near = walls.chain(obstacles).chain(low).find(|(gap, _)| *gap < radius_m + HAIR_M);
         near.map_or(Ok(()), |(gap_m, what)| {
             Err(SimulationError::Start { x: at.x, y: at.y, gap_m, what, radius_m })
         })
@@ -184,7 +234,7 @@ impl Simulator {
     fn step(&mut self) -> Step {
         let period = self.settings.reading_period_s;
         match self.task {
-            Task::Rest => Step::default(),
+            Task::Rest | Task::Change { .. } => Step::default(),
             Task::Turn { left } => {
                 let most = self.settings.turning_speed * period;
                 Step { turn: left.clamp(-most, most), ..Step::default() }
@@ -229,10 +279,12 @@ impl Simulator {
 
     /// What the robot touches first, if each went on as it wants to; what it touches is at its place at that time.
     fn first_touch(&self, step: &Step, ways: &[Point]) -> Option<(Touch, Option<usize>)> {
-        let (at, radius) = (self.pose.at, self.settings.radius_m);
+        let (at, radius) = (self.pose.at, self.radius_m());
         let reach = radius + step.way.length() + SNAP_M;
         let walls = self.walls.around(at, reach);
-        let walls = walls.filter_map(|wall| Some((touch(at, radius, step.way, wall)?, None)));
+        let overhead = self.overhead().filter_map(|low| touch(at, radius, step.way, &low));
+        let walls = walls.filter_map(|wall| touch(at, radius, step.way, wall));
+        let walls = walls.chain(overhead).map(|touch| (touch, None));
         let obstacles = self.movers.iter().zip(ways).enumerate().flat_map(|(i, (mover, way))| {
             let relative = step.way - *way;
             let way = *way;
@@ -251,7 +303,7 @@ impl Simulator {
         if way == Point::default() {
             return 0.0;
         }
-        let (at, radius) = (self.pose.at, self.settings.radius_m);
+        let (at, radius) = (self.pose.at, self.radius_m());
         let sides = &self.movers[mover].sides;
         let begin = at - robot_way;
         let together = Point::new(robot_way.x - robot_share * way.x, robot_way.y - robot_share * way.y);
@@ -271,7 +323,7 @@ impl Simulator {
     /// The way that an obstacle tries to go. One that touches the robot waits until the way is free.
     fn way(&self, mover: usize, now_s: f64, step_s: f64) -> Point {
         let way = self.movers[mover].way(now_s, step_s);
-        let (at, radius) = (self.pose.at, self.settings.radius_m);
+        let (at, radius) = (self.pose.at, self.radius_m());
         let back = -way;
         let mut touches = self.movers[mover].sides.iter().filter_map(|side| touch(at, radius, back, side));
         if touches.any(|touch| touch.share <= 0.0) { Point::default() } else { way }
@@ -285,6 +337,13 @@ impl Simulator {
         self.task = match self.task {
             _ if has_touched => Task::Rest,
             Task::Turn { left } if (left - step.turn).abs() > 0.0 => Task::Turn { left: left - step.turn },
+            Task::Change { to, left_s } if left_s > self.settings.reading_period_s => {
+                Task::Change { to, left_s: left_s - self.settings.reading_period_s }
+            }
+            Task::Change { to, .. } => {
+                self.shape = to;
+                Task::Rest
+            }
             Task::Move { left_m, speed_m_s, scale } if (left_m - step.counted_m).abs() > 0.0 => {
                 Task::Move { left_m: left_m - step.counted_m, speed_m_s, scale }
             }
@@ -301,7 +360,7 @@ impl Simulator {
         let range_m = if kind < self.settings.missed {
             None
         } else if kind < self.settings.missed + self.settings.false_echoes {
-            Some(self.settings.radius_m + place * (reach - self.settings.radius_m).max(0.0))
+            Some(self.radius_m() + place * (reach - self.radius_m()).max(0.0))
         } else {
             let range = self.range(self.pose.at, self.pose.direction(bearing));
             let heard = range.map(|range| (range * (1.0 + self.settings.range_noise * noise)).max(0.0));
@@ -311,10 +370,11 @@ impl Simulator {
     }
 
     fn contact(&self) -> Option<Contact> {
-        let (at, radius) = (self.pose.at, self.settings.radius_m);
+        let (at, radius) = (self.pose.at, self.radius_m());
         let walls = self.walls.around(at, radius + SNAP_M);
         let sides = self.movers.iter().flat_map(|mover| &mover.sides);
-        let points = walls.chain(sides).map(|side| at.nearest_on(side.a, side.b));
+        let points =
+            walls.chain(sides).copied().chain(self.overhead()).map(|side| at.nearest_on(side.a, side.b));
         let nearest = points.min_by(|a, b| at.distance(*a).total_cmp(&at.distance(*b)))?;
         let is_felt = at.distance(nearest) <= radius + 3.0 * HAIR_M;
         is_felt.then(|| Contact { bearing: self.pose.bearing(nearest) })
@@ -323,16 +383,19 @@ impl Simulator {
 
 impl Body for Simulator {
     fn radius_m(&self) -> f64 {
-        self.settings.radius_m
+        self.shapes.all[self.shape].radius_m
     }
 
     fn command(&mut self, command: Command) {
         self.task = match command {
             Command::Turn { by } if by.is_finite() && by != 0.0 => Task::Turn { left: by },
             Command::Move { distance_m, speed_m_s } if distance_m.is_finite() && speed_m_s > 0.0 => {
-                let speed_m_s = speed_m_s.min(self.settings.greatest_speed_m_s);
+                let speed_m_s = speed_m_s.min(self.shapes.all[self.shape].greatest_speed_m_s);
                 let scale = 1.0 + self.settings.distance_noise * self.random.normal();
                 Task::Move { left_m: distance_m, speed_m_s, scale }
+            }
+            Command::Change { to } if to != self.shape && to < self.shapes.all.len() => {
+                Task::Change { to, left_s: self.shapes.seconds(self.shape, to) }
             }
             _ => Task::Rest,
         };
@@ -348,6 +411,7 @@ impl Body for Simulator {
             reading,
             contact: self.contact(),
             is_busy: self.task != Task::Rest,
+            shape: self.shape,
         }
     }
 }

@@ -33,6 +33,9 @@ pub fn run(args: &SimulateArgs) -> Result<bool> {
     let site = SiteArgs { site: args.site.clone(), db: None, rules: args.rules.clone(), json: args.json };
     let live = Live::open(open(&site)?)?;
     let args = &in_own(args, live.site())?;
+    if live.site().course().is_none() {
+        return super::drive::run(args, live);
+    }
     if args.tell {
         return told(args, live);
     }
@@ -113,7 +116,7 @@ fn told(args: &SimulateArgs, mut live: Live) -> Result<bool> {
         refuse(judge.trouble())?;
         said.append(&mut judge.said);
         if let Some(store) = &mut store {
-            let record = record(&floor.plan.name, &rules, &row, &entries, decided_by);
+            let record = record((&floor.plan.name, &rules), &row, &[], &entries, decided_by);
             store.transaction(|tx| tx.keep_mission(&record))?;
         }
         rows.push(row);
@@ -168,7 +171,7 @@ fn check_film(args: &SimulateArgs) -> Result<()> {
 }
 
 /// The mission of which a film is wanted.
-fn filmed<'m>(args: &SimulateArgs, missions: &'m [Mission]) -> Result<Option<&'m Mission>> {
+pub(super) fn filmed<'m>(args: &SimulateArgs, missions: &'m [Mission]) -> Result<Option<&'m Mission>> {
     if args.film.is_none() {
         return Ok(None);
     }
@@ -201,7 +204,7 @@ fn kept(
     let mut rows = Vec::with_capacity(missions.len());
     for (index, mission) in missions.iter().enumerate() {
         let (row, entries, decided_by) = journalled(stage, judges, (before + index + 1, mission), None)?;
-        let record = record(world, rules, &row, &entries, decided_by);
+        let record = record((world, rules), &row, &[], &entries, decided_by);
         store.transaction(|tx| tx.keep_mission(&record))?;
         // what was kept stays, whatever comes of the next one
         std::mem::take(&mut made).keep();
@@ -212,7 +215,7 @@ fn kept(
 }
 
 /// The number of the last mission of a world that is kept; 0 where none is.
-fn last_mission(tx: &mut Tx<'_>, world: &str) -> Result<usize> {
+pub(super) fn last_mission(tx: &mut Tx<'_>, world: &str) -> Result<usize> {
     let is_there = tx.worlds_of_missions()?.iter().any(|known| known == world);
     Ok(if is_there { tx.numbers_of_missions(world)?.2 as usize } else { 0 })
 }
@@ -255,7 +258,7 @@ fn missions(args: &SimulateArgs, floor: &Floor, known: &Floor) -> Result<Vec<Mis
     Ok((0..u64::from(args.missions)).map(|number| mission(args.seed.wrapping_add(number))).collect())
 }
 
-fn show(rows: &[Row]) {
+pub(super) fn show(rows: &[Row]) {
     let cells = rows.iter().map(|row| {
         let over = row.over_optimum().map_or_else(String::new, |over| format!("{over:.3}"));
         let judged = match row.right {

@@ -65,7 +65,18 @@ impl Errand {
 impl State {
     /// The route on an errand; nothing but this copy is changed.
     pub fn route_on_errand(
+        self,
+        errand: &Errand,
+        ends: (&str, &[String]),
+        robot: Option<&str>,
+    ) -> Result<Answer> {
+        self.route_after(&[], errand, ends, robot)
+    }
+
+    /// The route on an errand after edits, which are taken back with it.
+    pub(crate) fn route_after(
         mut self,
+        edits: &[Edit],
         errand: &Errand,
         (start, goals): (&str, &[String]),
         robot: Option<&str>,
@@ -75,6 +86,9 @@ impl State {
         }
         let (site, rules) = (Arc::clone(&self.site), &self.inputs.rules);
         let told = Store::open(site.database())?.rehearse(|tx: &mut Tx<'_>| {
+            for edit in edits {
+                edit.apply(tx, &site, rules, &KnowledgeBase::nobody())?;
+            }
             errand.tell(tx, (&site, rules), robot)?;
             site.told(tx, rules)
         })?;

@@ -11,15 +11,15 @@ use super::missions::Row;
 use crate::plan::decided;
 
 pub fn record(
-    world: &str,
-    rules: &str,
+    (world, rules): (&str, &str),
     row: &Row,
+    shapes: &[String],
     entries: &[navigation::Entry],
     decided_by: Vec<Option<Considered>>,
 ) -> Record {
     let mut spoke = decided_by.into_iter();
     let entry = |entry: &navigation::Entry| {
-        let (event, change, detail) = told(&entry.event.what);
+        let (event, change, detail) = told(&entry.event.what, shapes);
         let rule = change.as_ref().and_then(|_| spoke.next().flatten());
         Entry {
             time: entry.event.time_s,
@@ -53,7 +53,7 @@ fn numbers(pose: &Pose) -> [f64; 3] {
 
 type Told = (&'static str, Option<[String; 3]>, Option<Value>);
 
-fn told(what: &Happening) -> Told {
+fn told(what: &Happening, shapes: &[String]) -> Told {
     let points = |points: &[adit_planners::geometry::Point]| -> Vec<[f64; 2]> {
         points.iter().map(|at| [at.x, at.y]).collect()
     };
@@ -77,10 +77,14 @@ fn told(what: &Happening) -> Told {
         Happening::Detour { points: way, length_m, other_m } => {
             ("detour", None, Some(json!({"points": points(way), "length": length_m, "other": other_m})))
         }
-        Happening::WayClosed { at, doorway, region } => {
-            ("way closed", None, Some(json!({"at": [at.x, at.y], "doorway": doorway, "region": region})))
+        Happening::WayClosed { at, doorway, region, seen } => {
+            let seen: Vec<[f64; 4]> =
+                seen.iter().map(|line| [line.a.x, line.a.y, line.b.x, line.b.y]).collect();
+            let detail = json!({"at": [at.x, at.y], "doorway": doorway, "region": region, "seen": seen});
+            ("way closed", None, Some(detail))
         }
         Happening::Forbidden { doorways } => ("doorways closed", None, Some(json!({"doorways": doorways}))),
+        Happening::Shape(shape) => ("shape", None, Some(json!({"state": shapes.get(*shape)}))),
         Happening::Retried => ("begun anew", None, None),
         Happening::Reached(at) => ("reached", None, Some(json!({"at": [at.x, at.y]}))),
         Happening::Ended(ending) => {

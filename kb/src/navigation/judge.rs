@@ -17,7 +17,7 @@ use crate::plan::course::Asked;
 use crate::plan::{Said, Spoke, said};
 
 /// What rules are told of a situation.
-const SITUATIONS: [Property<StateFacts>; 32] = [
+const SITUATIONS: [Property<StateFacts>; 36] = [
     ("mode", Text(|of| word_for(&MODES, &of.mode))),
     ("state", Text(|of| word_for(&STATES, &of.state))),
     ("has_goal", Truth(|of| of.has_goal)),
@@ -31,11 +31,14 @@ const SITUATIONS: [Property<StateFacts>; 32] = [
     ("is_contact", Truth(|of| of.is_contact)),
     ("back_offs", Number(|of| of.back_offs.into())),
     ("is_busy", Truth(|of| of.is_busy)),
+    ("is_changing", Truth(|of| of.is_changing)),
+    ("has_room", Truth(|of| of.has_room)),
     ("is_scan_complete", Truth(|of| of.is_scan_complete)),
     ("scans", Number(|of| of.scans.into())),
     ("left", Perhaps(|of| of.left_m)),
     ("right", Perhaps(|of| of.right_m)),
     ("detours_here", Number(|of| of.detours_here.into())),
+    ("closed_here", Number(|of| of.closed_here.into())),
     ("waits", Number(|of| of.waits.into())),
     ("has_way", Truth(|of| of.has_way)),
     ("is_shut", Truth(|of| of.is_shut)),
@@ -47,6 +50,7 @@ const SITUATIONS: [Property<StateFacts>; 32] = [
     ("look_ahead", Number(|of| of.settings.look_ahead_m)),
     ("most_waits", Number(|of| of.settings.most_waits.into())),
     ("most_detours", Number(|of| of.settings.most_detours.into())),
+    ("most_reports", Number(|of| of.settings.most_reports.into())),
     ("most_retries", Number(|of| of.settings.most_retries.into())),
     ("most_back_offs", Number(|of| of.settings.most_back_offs.into())),
     ("no_way_after", Number(|of| of.settings.no_way_after_s)),
@@ -117,6 +121,11 @@ impl RuleJudge {
     pub fn new(rules: &Arc<RuleBase>) -> std::result::Result<Self, ClassError> {
         let told = Told::default();
         Self::made(&told, |class, told, asked| Consultation::new(Arc::clone(rules), class, told, asked))
+    }
+
+    /// Makes rules ready that know nothing but what they are told, for missions.
+    pub fn of_rules(rules: &Arc<RuleBase>) -> Result<Self> {
+        Self::new(rules).map_err(Error::of(Code::PlanRules))
     }
 
     /// Makes ready for routes over a site, whose rules may look at all that is known of it.
@@ -222,8 +231,12 @@ const ACTIONS: [(&str, Action); 7] = [
     ("retry", Action::Retry),
     ("no way", Action::NoWay),
 ];
-const MODES: [(&str, Mode); 3] =
-    [("automatic", Mode::Automatic), ("manual", Mode::Manual), ("learn", Mode::Learn)];
+const MODES: [(&str, Mode); 4] = [
+    ("automatic", Mode::Automatic),
+    ("manual", Mode::Manual),
+    ("learn", Mode::Learn),
+    ("route", Mode::Route),
+];
 const SOURCES: [(&str, Source); 3] =
     [("sonar", Source::SONAR), ("contact", Source::CONTACT), ("recalled", Source::RECALLED)];
 

@@ -1,5 +1,6 @@
 //! Missions of a simulated robot, judged by rules.
 
+use std::collections::BTreeMap;
 use std::time::Instant;
 
 use adit_engine::Considered;
@@ -35,8 +36,19 @@ pub struct Row {
     pub right: Option<bool>,
     /// Metres that the robot went.
     pub length: f64,
-    /// Of the shortest path that knows of the obstacles.
+    /// Of the shortest path that knows of the obstacles; where routes lead by hardness, of the best route that does.
     pub optimum: Option<f64>,
+    /// Metres in each state, of a robot that changes its shape.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub by_state: BTreeMap<String, f64>,
+    /// Changes of shape.
+    pub changes: u32,
+    /// The hardness of what the robot did, where routes lead by hardness.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub cost: Option<f64>,
+    /// Of the best route that knows of the obstacles.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub least_cost: Option<f64>,
     /// Times that a way was closed and another looked for.
     pub replans: u32,
     pub detours: u32,
@@ -55,15 +67,18 @@ pub struct Row {
 }
 
 impl Row {
-    /// How many times as far as the shortest path the robot went; `None` where there is no such path, or where the robot
-    /// began at its goal.
+    /// How many times as far as the shortest path the robot went, or as hard as the best route; `None` where there is none, or
+    /// where the robot began at its goal.
     pub fn over_optimum(&self) -> Option<f64> {
+        if let (Some(cost), Some(least)) = (self.cost, self.least_cost) {
+            return (least > 0.0).then(|| cost / least);
+        }
         self.optimum.filter(|optimum| *optimum > 0.0).map(|optimum| self.length / optimum)
     }
 }
 
 /// Deeper than that is a collision, metres.
-const TOUCH_M: f64 = 1e-6;
+pub(super) const TOUCH_M: f64 = 1e-6;
 
 pub fn drawn(floor: &Floor, missions: usize, seed: u64) -> Result<Vec<Mission>> {
     let of = |number: usize| {
@@ -189,6 +204,10 @@ fn judged(
         right: possible.map(|possible| is_right(&outcome, &possible, radius)),
         length: outcome.path_m,
         optimum: possible.and_then(|possible| possible.optimum_m),
+        by_state: BTreeMap::new(),
+        changes: 0,
+        cost: None,
+        least_cost: None,
         replans: outcome.replans,
         detours: outcome.detours,
         touches: outcome.touches,

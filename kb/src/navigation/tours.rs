@@ -42,7 +42,7 @@ pub struct Driven {
 /// Drives so far with each of so many seeds, with walls known and unknown.
 pub fn drive(floor: &Floor, judges: &Judges, far_m: f64, seeds: u64, first: u64) -> Result<Vec<Driven>> {
     let known = floor.building();
-    let unknown = Building { network: known.network.clone(), walls: Vec::new() };
+    let unknown = Building::of_walls(known.network.clone(), Vec::new());
     let drives: Vec<(bool, u64)> = [true, false]
         .into_iter()
         .flat_map(|is_known| (0..seeds).map(move |n| (is_known, first.wrapping_add(n))))

@@ -79,8 +79,38 @@ impl Kind {
 /// # Returns
 /// The rules, and what is not wrong but worth a look, as text.
 pub fn load(kind: Kind, name: &str, beside: &Path) -> Result<(Arc<RuleBase>, Vec<String>)> {
+    let is_shipped = kind.shipped().contains(&name);
+    let (base, mut remarks) = vetted(kind, found(kind, name, beside)?, is_shipped)?;
+    // the shipped ones are as they are meant
+    if !is_shipped {
+        remarks.extend(lint::not_read(&beside.join(name)).iter().map(ToString::to_string));
+    }
+    Ok((base, remarks))
+}
+
+/// Reads the shipped rule base of a kind, with the folder of its name beside it over it, where there is one.
+///
+/// # Returns
+/// The rules, which bases they are of, the lowest first, and what is not wrong but worth a look, as text.
+pub fn load_over(kind: Kind, beside: &Path) -> Result<(Arc<RuleBase>, Vec<Base>, Vec<String>)> {
+    let name = kind.shipped()[0];
+    let folder = beside.join(name);
+    let mut bases = kind.bases(name).unwrap_or_default();
+    let is_own = folder.is_dir();
+    if is_own {
+        bases.push(Base::Folder(folder.clone()));
+    }
+    let (base, mut remarks) = vetted(kind, rules::load_bases(&bases)?, !is_own)?;
+    if is_own {
+        remarks.extend(lint::not_read(&folder).iter().map(ToString::to_string));
+    }
+    Ok((base, bases, remarks))
+}
+
+/// Refuses rules that cannot be right, or fail a test beside them.
+fn vetted(kind: Kind, rules: Rules, is_shipped: bool) -> Result<(Arc<RuleBase>, Vec<String>)> {
     let schema = &kind.schema();
-    let Rules { base, tests, .. } = found(kind, name, beside)?;
+    let Rules { base, tests, .. } = rules;
     let (errors, warnings): (Vec<_>, Vec<_>) =
         base.check(schema).into_iter().partition(|found| found.severity == Severity::Error);
     if !errors.is_empty() {
@@ -88,7 +118,7 @@ pub fn load(kind: Kind, name: &str, beside: &Path) -> Result<(Arc<RuleBase>, Vec
     }
     // of the shipped ones sites carry them out
     let idle = lint::not_carried_out(&base, "worlds", Finding::said);
-    if !idle.is_empty() && !kind.shipped().contains(&name) {
+    if !idle.is_empty() && !is_shipped {
         return Err(Error::all(idle));
     }
     let outcomes = tests.run(&base, schema).map_err(|wrong| Error::all(wrong.0))?;
@@ -97,14 +127,11 @@ pub fn load(kind: Kind, name: &str, beside: &Path) -> Result<(Arc<RuleBase>, Vec
     if !failures.is_empty() {
         return Err(Error::all(failures));
     }
-    // the shipped ones are as they are meant
-    let remarks = if kind.shipped().contains(&name) {
+    let remarks = if is_shipped {
         Vec::new()
     } else {
-        let ignored = lint::not_read(&beside.join(name));
         let unread = lint::unread_but(&base, kind.asked());
-        let said = warnings.iter().map(ToString::to_string).chain(unread.iter().map(ToString::to_string));
-        said.chain(ignored.iter().map(ToString::to_string)).collect()
+        warnings.iter().map(ToString::to_string).chain(unread.iter().map(ToString::to_string)).collect()
     };
     Ok((Arc::new(base), remarks))
 }

@@ -1,6 +1,6 @@
 //! Polygons by their corners in order; the last side goes back to the first corner.
 
-use geo::Polygon;
+use geo::{ConvexHull, Polygon};
 
 use super::{Point, Segment, orient};
 
@@ -59,6 +59,21 @@ pub fn without_straight(corners: &[Point], aside_m: f64) -> Vec<Point> {
 /// Whether a convex outline, counterclockwise, holds a point, or comes as near to it as so many metres.
 pub fn is_in_convex(corners: &[Point], p: Point, slack_m: f64) -> bool {
     sides(corners).all(|side| (side.b - side.a).cross(p - side.a) >= -slack_m * side.length())
+}
+
+/// The least convex outline about points, counterclockwise.
+pub fn hull(points: impl IntoIterator<Item = Point>) -> Vec<Point> {
+    let hull = points.into_iter().collect::<geo::LineString>().convex_hull();
+    hull.exterior().coords().skip(1).map(|&corner| corner.into()).collect()
+}
+
+/// Whether two convex outlines, counterclockwise, have a point in common.
+pub fn do_convex_meet(one: &[Point], other: &[Point]) -> bool {
+    let holds =
+        |outline: &[Point], of: &[Point]| of.first().is_some_and(|at| is_in_convex(outline, *at, 0.0));
+    holds(one, other)
+        || holds(other, one)
+        || sides(one).any(|side| sides(other).any(|across| side.meets(&across)))
 }
 
 /// The first two sides, by number, that meet anywhere but in the corner between neighbours, or of which one leads back

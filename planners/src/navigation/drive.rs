@@ -2,7 +2,6 @@
 
 use super::judge::Judge;
 use super::known::Building;
-use super::mission::overlap;
 use super::{Ending, Entry, Navigator, Outfit};
 use crate::body::Command;
 use crate::geometry::{Point, Segment};
@@ -126,7 +125,7 @@ impl<J: Judge, W: FnMut(Entry)> Drive<'_, J, W> {
         let ending = self.navigator.step(&mut self.body, self.judge);
         let truth = self.body.pose();
         self.driven.path_m += before.at.distance(truth.at);
-        self.driven.overlap_m = self.driven.overlap_m.max(overlap(&self.body));
+        self.driven.overlap_m = self.driven.overlap_m.max(self.body.overlap_m());
         for event in self.navigator.take_events() {
             (self.journal)(Entry { event, truth });
         }

@@ -1,7 +1,7 @@
 //! What happens on a mission, to be written down.
 
 use super::{Settings, State, StateDecision, StateFacts};
-use crate::geometry::Point;
+use crate::geometry::{Point, Segment};
 use crate::local_model::{Estimate, SegmentId};
 use crate::pose::Pose;
 
@@ -55,12 +55,16 @@ pub enum Happening {
         doorway: Option<usize>,
         /// The region in which that is, by index, where it is in no doorway.
         region: Option<usize>,
+        /// What was seen to stand there, and is no part of the building that is known.
+        seen: Vec<Segment>,
     },
     /// The judge closes other doorways than before, whatever is seen.
     Forbidden {
         /// All of them, by index.
         doorways: Vec<usize>,
     },
+    /// The robot is in another shape, by number.
+    Shape(usize),
     /// What was seen of obstacles was forgotten.
     Retried,
     /// A goal point on the path was reached.

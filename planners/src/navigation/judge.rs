@@ -14,6 +14,8 @@ pub enum Mode {
     Automatic,
     /// The navigator does, a little way through a building that is being learned.
     Learn,
+    /// The navigator does, along a way that somebody else finds, and finds anew.
+    Route,
 }
 
 /// States of straight-line movement (Crowley 1985, Figure 5).
@@ -77,6 +79,10 @@ pub struct StateFacts {
     /// How often it withdrew since it last waited.
     pub back_offs: u32,
     pub is_busy: bool,
+    /// Whether the robot has to be in another shape before it goes on.
+    pub is_changing: bool,
+    /// Whether there is room for that shape beside what was met.
+    pub has_room: bool,
     /// Whether a whole scan was taken since the robot stands here.
     pub is_scan_complete: bool,
     /// Whole scans since the goal was given, or everything was forgotten.
@@ -87,6 +93,8 @@ pub struct StateFacts {
     pub right_m: Option<f64>,
     /// How many detours were taken from this spot.
     pub detours_here: u32,
+    /// How many ways were reported closed at this spot.
+    pub closed_here: u32,
     /// How often it waited at this spot.
     pub waits: u32,
     pub has_way: bool,

@@ -11,17 +11,26 @@ pub struct Building {
     pub network: Network,
     /// The surfaces of the global model.
     pub walls: Vec<Segment>,
+    /// What the robot does not fit beneath; no sonar hears it.
+    pub overhead: Vec<Segment>,
+    /// What nobody may cross, though nothing is there. A way that is given to the robot keeps off it; its detours do, too.
+    pub closed: Vec<Segment>,
 }
 
 impl Building {
     /// The building of a floor plan with its network.
     pub fn new(plan: &FloorPlan, network: Network) -> Self {
-        Self { network, walls: plan.barriers().into_iter().map(Segment::from).collect() }
+        Self::of_walls(network, plan.barriers().into_iter().map(Segment::from).collect())
+    }
+
+    /// Walls, and nothing that a sonar does not hear.
+    pub fn of_walls(network: Network, walls: Vec<Segment>) -> Self {
+        Self { network, walls, overhead: Vec::new(), closed: Vec::new() }
     }
 
     /// A building of which nothing is known, for a robot.
     pub fn unknown(disc: Disc) -> Self {
-        Self { network: Network::none(disc), walls: Vec::new() }
+        Self::of_walls(Network::none(disc), Vec::new())
     }
 }
 

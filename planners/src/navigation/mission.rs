@@ -137,7 +137,7 @@ impl Mission {
             outcome.worst_error_m = outcome.worst_error_m.max(thought.at.distance(truth.at));
             let turned = wrapped(thought.heading - truth.heading).abs();
             outcome.worst_heading_error = outcome.worst_heading_error.max(turned);
-            outcome.overlap_m = outcome.overlap_m.max(overlap(&body));
+            outcome.overlap_m = outcome.overlap_m.max(body.overlap_m());
             for event in navigator.take_events() {
                 outcome.detours += u32::from(matches!(event.what, Happening::Detour { .. }));
                 if let Some(Some(film)) = film.as_deref_mut() {
@@ -164,7 +164,7 @@ impl Mission {
     /// `None` where obstacles and walls together make no floor plan.
     pub fn possible(&self, plan: &FloorPlan, radius_m: f64) -> Option<Possible> {
         let mut solids = plan.solids().to_vec();
-        solids.extend(self.obstacles.iter().map(at_rest));
+        solids.extend(self.obstacles.iter().map(Obstacle::at_rest));
         let drawn = Drawn { name: String::new(), walls: plan.walls().to_vec(), solids, places: Vec::new() };
         let plan = FloorPlan::new(drawn).ok()?;
         let path = |radius: f64, margin: f64| {
@@ -175,21 +175,6 @@ impl Mission {
         let is_with_room = path(radius_m, ROOM_M).is_some();
         Some(Possible { is_for_radius: optimum_m.is_some() || is_with_room, is_with_room, optimum_m })
     }
-}
-
-/// The corners of an obstacle where it comes to rest.
-fn at_rest(obstacle: &Obstacle) -> Vec<Point> {
-    let course = obstacle.course.as_ref().filter(|course| !course.goes_round);
-    let last = course.and_then(|course| course.through.last().copied()).unwrap_or_default();
-    obstacle.corners.iter().map(|&p| p + last).collect()
-}
-
-/// How deep something is within the robot, metres.
-pub(super) fn overlap(body: &Simulator) -> f64 {
-    let at = body.pose().at;
-    let sides = body.obstacles().flatten().chain(body.walls());
-    let nearest = sides.map(|side| side.distance(at)).fold(f64::INFINITY, f64::min);
-    body.settings().radius_m - nearest
 }
 
 /// A state and an action, as films say them.
@@ -206,7 +191,7 @@ pub(super) fn state_caption(decision: StateDecision) -> String {
     }
 }
 
-fn film_event(film: &mut Film, body: &Simulator, navigator: &Navigator, event: &Event) {
+pub(super) fn film_event(film: &mut Film, body: &Simulator, navigator: &Navigator, event: &Event) {
     let caption = match &event.what {
         Happening::State { decision, .. } => state_caption(*decision),
         Happening::Detour { length_m, .. } => format!("detour of {length_m:.1} m"),
@@ -217,6 +202,7 @@ fn film_event(film: &mut Film, body: &Simulator, navigator: &Navigator, event: &
             format!("planned: {length_m:.1} m{}", if *is_off_network { " off the network" } else { "" })
         }
         Happening::Contact { .. } => "contact".to_owned(),
+        Happening::Shape(_) => "another shape".to_owned(),
         Happening::Ended(Ending::Arrived) => "arrived".to_owned(),
         Happening::Ended(Ending::NoWay) => "no way".to_owned(),
         Happening::Ended(Ending::OutOfPatience) => "given up".to_owned(),

@@ -4,7 +4,7 @@ use super::mission::{Mission, ROOM_M};
 use crate::floor_plan::clear::wall_distance;
 use crate::floor_plan::{FloorPlan, Network, Rule};
 use crate::geometry::polygon::{is_in_convex, sides};
-use crate::geometry::{Point, Rect};
+use crate::geometry::{Point, Rect, Segment, path_length};
 use crate::pose::Pose;
 use crate::random::Random;
 use crate::simulator::{Course, Obstacle};
@@ -27,6 +27,25 @@ const GOAL_KEPT: f64 = 0.9;
 /// # Returns
 /// `None` where the plan has no room for it.
 pub fn draw(plan: &FloorPlan, network: &Network, radius_m: f64, seed: u64) -> Option<Mission> {
+    let doorways = &network.regions.doorways;
+    let doorways: Vec<Segment> = doorways.iter().map(|door| Segment::new(door.from, door.to)).collect();
+    draw_along(plan, &doorways, radius_m, seed, |start, goal| {
+        let path = network.path(start, goal, Rule::Tight, |way| Some(way.length)).ok()?;
+        Some(path.points)
+    })
+}
+
+/// As [`draw`], where somebody else knows ways and doorways.
+///
+/// # Arguments
+/// `way` is a way from a start to a goal, if there is one.
+pub fn draw_along(
+    plan: &FloorPlan,
+    doorways: &[Segment],
+    radius_m: f64,
+    seed: u64,
+    mut way: impl FnMut(Point, Point) -> Option<Vec<Point>>,
+) -> Option<Mission> {
     let mut random = Random::new(seed);
     let barriers = plan.barriers();
     let bounds = extent(&barriers);
@@ -34,15 +53,15 @@ pub fn draw(plan: &FloorPlan, network: &Network, radius_m: f64, seed: u64) -> Op
     let spot = |random: &mut Random| spot(plan, &barriers, room, random);
     let (start, goal, path) = (0..TRIES).find_map(|_| {
         let (start, goal) = (spot(&mut random)?, spot(&mut random)?);
-        let path = network.path(start, goal, Rule::Tight, |way| Some(way.length)).ok()?;
-        (path.length >= APART_M).then_some((start, goal, path.points))
+        let path = way(start, goal)?;
+        (path_length(&path) >= APART_M).then_some((start, goal, path))
     })?;
     let heading = random.between(-3.0, 3.0);
     let is_goal_kept = random.share() < GOAL_KEPT;
     let count = random.below(MOST_OBSTACLES + 1);
     let mut obstacles = Vec::new();
     for _ in 0..count {
-        let found = (0..TRIES).map(|_| obstacle(network, &path, &barriers, bounds, &mut random));
+        let found = (0..TRIES).map(|_| obstacle(doorways, &path, &barriers, bounds, &mut random));
         let stands_off = |obstacle: &Obstacle| {
             let rest = obstacle.course.as_ref().and_then(|course| course.through.last().copied());
             let is_off = |step: Point| {
@@ -90,7 +109,7 @@ fn spot(plan: &FloorPlan, barriers: &[[Point; 2]], room: f64, random: &mut Rando
 }
 
 fn obstacle(
-    network: &Network,
+    doorways: &[Segment],
     path: &[Point],
     barriers: &[[Point; 2]],
     bounds: Rect,
@@ -99,9 +118,8 @@ fn obstacle(
     let kind = random.share();
     let mut middle = any(bounds, random);
     if kind < 0.2 {
-        let doors = &network.regions.doorways;
-        if let Some(door) = doors.get(random.below(doors.len())) {
-            middle = door.from.lerp(door.to, random.share());
+        if let Some(door) = doorways.get(random.below(doorways.len())) {
+            middle = door.a.lerp(door.b, random.share());
         }
     } else if kind < 0.8 {
         let leg = random.below(path.len() - 1);

@@ -2,6 +2,7 @@
 
 mod acting;
 mod planning;
+mod route;
 mod sensing;
 mod watching;
 
@@ -14,6 +15,7 @@ use super::event::{Ending, Event, Happening};
 use super::judge::{Action, Judge, Mode, State};
 use super::known::{Building, Memory};
 use super::learn::Seen;
+use super::stretch::Stretch;
 use crate::body::{Body, Command, Contact, Reading, Sensed};
 use crate::geometry::{Point, Segment};
 use crate::local_model::{Estimate, LocalModel};
@@ -35,6 +37,9 @@ const SHORT_M: f64 = 0.01;
 /// Drives a body through a known building, with obstacles that are not known.
 #[derive(Clone, Debug)]
 pub struct Navigator<'b> {
+    /// The building as it is for the robot in each of its shapes, by number.
+    shapes: &'b [Building],
+    /// As it is for the robot in the shape in which it is.
     building: &'b Building,
     settings: Settings,
     model: LocalModel,
@@ -42,7 +47,7 @@ pub struct Navigator<'b> {
     blocked: Blocked,
     /// Doorways that the judge closes whatever is seen, by index.
     forbidden: Vec<usize>,
-    /// Walls, doorways that are forbidden, then obstacles; from which index on.
+    /// Walls, what is overhead, doorways that are forbidden, then obstacles; from which index on.
     barriers: Vec<Segment>,
     obstacles_from: usize,
     moving: Vec<Segment>,
@@ -50,6 +55,14 @@ pub struct Navigator<'b> {
     state: State,
     goal: Option<Point>,
     legs: VecDeque<Point>,
+    /// From where the way says that the robot comes to the first of these.
+    came_from: Point,
+    /// What of a way that somebody else found comes after these legs.
+    stretches: VecDeque<Stretch>,
+    /// The shape that these legs ask for.
+    needed: usize,
+    /// Whether somebody else is to find another way.
+    wants_way: bool,
     line: Line,
     has_way: bool,
     is_shut: bool,
@@ -124,20 +137,42 @@ impl<'b> Navigator<'b> {
         settings: Settings,
         start: Estimate,
     ) -> Self {
+        Self::of_shapes((std::slice::from_ref(building), 0), model, settings, start)
+    }
+
+    /// As [`Self::new`], for a body that changes its shape.
+    ///
+    /// # Arguments
+    /// The building as it is for the robot in each shape, and the shape in which it is.
+    ///
+    /// # Panics
+    /// Where there is no such shape.
+    pub fn of_shapes(
+        (shapes, shape): (&'b [Building], usize),
+        model: crate::local_model::Settings,
+        settings: Settings,
+        start: Estimate,
+    ) -> Self {
+        let building = &shapes[shape];
         Self {
+            shapes,
             building,
             settings,
             model: LocalModel::new(model, start),
             memory: Memory::default(),
             blocked: Blocked::new(&building.network),
             forbidden: Vec::new(),
-            barriers: building.walls.clone(),
-            obstacles_from: building.walls.len(),
+            barriers: [&building.walls[..], &building.overhead].concat(),
+            obstacles_from: building.walls.len() + building.overhead.len(),
             moving: Vec::new(),
             mode: Mode::Manual,
             state: State::Hold,
             goal: None,
             legs: VecDeque::new(),
+            came_from: start.pose.at,
+            stretches: VecDeque::new(),
+            needed: shape,
+            wants_way: false,
             line: Line::default(),
             has_way: true,
             is_shut: false,
@@ -194,6 +229,7 @@ impl<'b> Navigator<'b> {
     pub fn manual(&mut self, body: &mut impl Body) {
         (self.mode, self.state, self.goal, self.then_m) = (Mode::Manual, State::Hold, None, None);
         self.legs.clear();
+        self.stretches.clear();
         body.command(Command::Stop);
     }
 

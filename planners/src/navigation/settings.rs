@@ -15,6 +15,7 @@ settings! {
             look_ahead_m: f64 = 2.5, "look_ahead", "m", Positive, "Obstacles on the way count from so near on.";
             stride_m: f64 = 3.0, "stride", "m", Positive, "The robot goes no farther without a look around.";
             speed_m_s: f64 = 0.5, "speed", "m/s", Positive, "How fast the robot goes.";
+            stride_to_room: f64 = 30.0, "stride_to_room", "", Positive, "On a site's route it goes no farther without a look around than so many times the room beside it.";
             scan_readings: usize = 120, "scan_readings", "", Count, "Readings of the sonar that make a whole scan.";
             part_readings: usize = 40, "part_readings", "", Count, "Readings after which the model is updated on the way.";
             echoes: usize = 2, "echoes", "", Count, "So many raw echoes are in the way before what they hit is: one may be false.";
@@ -27,6 +28,8 @@ settings! {
             detour_reach_m: f64 = 2.0, "detour_reach", "m", Positive, "A detour leaves the rectangle about its ends by at most so much.";
             grain_m: f64 = 0.04, "grain", "m", Grain, "The grain of the search for detours.";
             back_off_m: f64 = 0.15, "back_off", "m", Positive, "How far the robot withdraws from what it touched.";
+            change_room_m: f64 = 0.15, "change_room", "m", Room, "What is kept free on either side of the robot where it changes its shape, if there is such a place.";
+            change_reach_m: f64 = 1.5, "change_reach", "m", NotNegative, "So far before or behind the place that a route says the robot changes its shape, to have room.";
             felt_s: f64 = 90.0, "felt", "s", NotNegative, "What was touched is in the way for so long.";
             least_confidence: u8 = 2, "least_confidence", "", Count, "Surfaces of less confidence close no way for good.";
             firm_confidence: u8 = 3, "firm_confidence", "", Count, "Surfaces of this confidence stand, even if they are part of what seems to move.";
@@ -35,6 +38,7 @@ settings! {
             most_waits: u32 = 4, "most_waits", "", Times, "Waits for a moving obstacle at one spot.";
             most_detours: u32 = 4, "most_detours", "", Times, "Detours from one spot before the way counts as closed.";
             most_closed: u32 = 2, "most_closed", "", Times, "Ways closed at one spot before a path is looked for off the network, through what is known to be free.";
+            most_reports: u32 = 8, "most_reports", "", Times, "Ways that routes lead and that are reported closed at one spot before everything is looked at anew.";
             most_retries: u32 = 2, "most_retries", "", Times, "Times that everything is looked at anew before there is no way.";
             give_way_m: f64 = 1.5, "give_way", "m", NotNegative, "Before it begins anew the robot goes back on its own track, up to so far, to give way.";
             no_way_after_s: f64 = 180.0, "no_way_after", "s", NotNegative, "There may be a way again for so long: things that move come to rest.";

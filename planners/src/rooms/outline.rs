@@ -130,11 +130,8 @@ mod tests {
         fn an_outline_is_read_back_to_the_bit(
             corners in prop::collection::vec((-1e3..1e3, -1e3..1e3), 3..12), scale in -30_i32..30
         ) {
-            use geo::ConvexHull;
             let scaled = |(x, y): (f64, f64)| Point::new(x / 3.0 * 2f64.powi(scale), y / 7.0 * 10f64.powi(scale));
-            let points = corners.into_iter().map(|corner| geo::Coord::from(scaled(corner)));
-            let hull = points.collect::<geo::LineString>().convex_hull();
-            let outline = Convex::new(hull.exterior().coords().skip(1).map(|&corner| corner.into()).collect());
+            let outline = Convex::new(crate::geometry::polygon::hull(corners.into_iter().map(scaled)));
             let text = write(&outline).unwrap();
             let back = read(Some(&text), outline.bounds()).unwrap();
             let bits = |of: &Convex| -> Vec<[u64; 2]> {

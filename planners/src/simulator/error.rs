@@ -14,6 +14,8 @@ pub enum SimulationError {
     Outline { number: usize, corners: usize },
     #[error("obstacle {number} moves at {speed_m_s} m/s; expected a speed of 0 or more")]
     Speed { number: usize, speed_m_s: f64 },
+    #[error("there is no shape {shape}; the robot has {shapes}, numbered from 0")]
+    NoShape { shape: usize, shapes: usize },
     #[error("the robot begins at {x}, {y}, {gap_m:.3} m from {what}; its radius is {radius_m} m")]
     Start {
         x: f64,

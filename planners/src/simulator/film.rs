@@ -14,6 +14,8 @@ pub struct Frame {
     pub robot: Pose,
     /// Where it thought that it was; `None` where that is not known.
     pub estimate: Option<Pose>,
+    /// The shape in which it was, by number.
+    pub shape: usize,
     /// How far each obstacle was from where it began, metres.
     pub obstacles: Vec<Point>,
     /// Surfaces that its model held then; `None` where they are those of the frame before.
@@ -28,7 +30,10 @@ pub struct Film {
     walls: Vec<Segment>,
     /// Obstacles by their corners, where they began.
     obstacles: Vec<Vec<Point>>,
-    radius_m: f64,
+    /// Of the robot, in each of its shapes.
+    radii_m: Vec<f64>,
+    /// What some shape does not fit beneath.
+    low: Vec<Rect>,
     frames: Vec<Frame>,
     goal: Option<Point>,
 }
@@ -44,17 +49,25 @@ impl Simulator {
     /// How things are now, as a frame without an estimate.
     pub fn frame(&self) -> Frame {
         let obstacles = self.movers.iter().map(|mover| mover.shift).collect();
-        let (time_s, robot) = (self.time_s(), self.pose);
-        Frame { time_s, robot, estimate: None, obstacles, surfaces: None, caption: None }
+        let (time_s, robot, shape) = (self.time_s(), self.pose, self.shape);
+        Frame { time_s, robot, shape, estimate: None, obstacles, surfaces: None, caption: None }
     }
 }
 
 impl Film {
     pub fn new(simulator: &Simulator) -> Self {
+        let shapes = &simulator.shapes.all;
+        let mut low: Vec<Rect> = Vec::new();
+        for rect in shapes.iter().flat_map(|shape| &shape.overhead) {
+            if !low.contains(rect) {
+                low.push(*rect);
+            }
+        }
         Self {
             walls: simulator.walls.segments().to_vec(),
             obstacles: simulator.movers.iter().map(|mover| mover.obstacle.corners.clone()).collect(),
-            radius_m: simulator.settings.radius_m,
+            radii_m: shapes.iter().map(|shape| shape.radius_m).collect(),
+            low,
             frames: Vec::new(),
             goal: None,
         }
@@ -96,6 +109,14 @@ impl Film {
             -extent.x0,
             extent.y1,
         );
+        for Rect { x0, y0, x1, y1 } in &self.low {
+            let _ = writeln!(
+                out,
+                "<rect x=\"{x0:.2}\" y=\"{y0:.2}\" width=\"{:.2}\" height=\"{:.2}\" fill=\"#b59\" fill-opacity=\".15\" stroke=\"#b59\" stroke-dasharray=\".2 .1\"/>",
+                x1 - x0,
+                y1 - y0
+            );
+        }
         self.trail(&mut out, "#9ab", ".03", |frame| Some(frame.robot));
         self.trail(&mut out, "#c33\" stroke-dasharray=\".1 .1", ".03", |frame| frame.estimate);
         lines(&mut out, "stroke=\"#222\"", &self.walls);
@@ -105,7 +126,7 @@ impl Film {
                 "<circle cx=\"{:.2}\" cy=\"{:.2}\" r=\"{:.2}\" fill=\"#2e9d66\" fill-opacity=\".35\" stroke=\"#2e9d66\"/>",
                 at.x,
                 at.y,
-                self.radius_m / 2.0
+                self.radii_m[0] / 2.0
             );
         }
         let clock = Clock::new(&self.frames, speed);
@@ -196,8 +217,30 @@ impl Film {
             format!("{:.1}", total.to_degrees())
         });
         clock.slide(out, "rotate", headings.collect::<Vec<_>>().into_iter());
-        let radius = self.radius_m;
-        let _ = writeln!(out, "<circle r=\"{radius}\"/><path d=\"M0 0H{radius}\"/></g></g>");
+        for (from, until, shape) in self.shapes() {
+            out.push_str(if from == 0 && until.is_none() { "<g>" } else { "<g visibility=\"hidden\">" });
+            if from > 0 || until.is_some() {
+                clock.show(out, from, until);
+            }
+            let radius = self.radii_m[shape];
+            let _ = write!(out, "<circle r=\"{radius}\"/><path d=\"M0 0H{radius}\"/></g>");
+        }
+        out.push_str("</g></g>\n");
+    }
+
+    /// Which shape the robot has from which frame until which, or to the end.
+    fn shapes(&self) -> Vec<(usize, Option<usize>, usize)> {
+        let mut all: Vec<(usize, Option<usize>, usize)> = Vec::new();
+        for (number, frame) in self.frames.iter().enumerate() {
+            if all.last().is_some_and(|(_, _, shape)| *shape == frame.shape) {
+                continue;
+            }
+            if let Some((_, until, _)) = all.last_mut() {
+                *until = Some(number);
+            }
+            all.push((number, None, frame.shape));
+        }
+        all
     }
 
     fn captions(&self, out: &mut String, clock: &Clock, height: f64) {

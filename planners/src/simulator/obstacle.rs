@@ -34,6 +34,13 @@ impl Obstacle {
         Self { corners, course: None }
     }
 
+    /// Its corners where it comes to rest; where it began, if it never does.
+    pub fn at_rest(&self) -> Vec<Point> {
+        let course = self.course.as_ref().filter(|course| !course.goes_round);
+        let last = course.and_then(|course| course.through.last().copied()).unwrap_or_default();
+        self.corners.iter().map(|&p| p + last).collect()
+    }
+
     #[must_use]
     pub fn on(self, course: Course) -> Self {
         Self { course: Some(course), ..self }

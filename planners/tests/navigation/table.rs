@@ -6,10 +6,13 @@
 //! |---------|--------------------------------------------------------|---------|----------|
 //! | Hold    | mode is Manual                                         | Hold    |          |
 //! | Hold    | has_way is false                                       | Blocked |          |
+//! | Hold    | is_changing, has_room is false                         | Blocked |          |
+//! | Hold    | is_changing                                            | Hold    |          |
 //! | Hold    | has_goal                                               | Decide  |          |
 //! | Hold    | otherwise                                              | Hold    |          |
 //! | Decide  | has_goal is false                                      | Hold    |          |
 //! | Decide  | scans = 0                                              | Wait    |          |
+//! | Decide  | is_changing                                            | Hold    |          |
 //! | Decide  | distance_m <= goal_tolerance_m                         | Hold    |          |
 //! | Decide  | is_contact                                             | Blocked |          |
 //! | Decide  | free_m < reach                                         | Blocked |          |
@@ -33,10 +36,12 @@
 //! | Blocked | is_contact and back_offs < most_back_offs              | Blocked | BackOff  |
 //! | Blocked | is_scan_complete is false                              | Wait    |          |
 //! | Blocked | mode is Learn                                          | Hold    | NoWay    |
+//! | Blocked | as without a way: mode is Route, closed_here >= most_reports |   |          |
 //! | Blocked | has_way is false and retries < most_retries            | Decide  | Retry    |
 //! | Blocked | has_way, is_shut are false, time_s < no_way_after_s    | Decide  | Retry    |
 //! | Blocked | has_way is false                                       | Hold    | NoWay    |
 //! | Blocked | is_obstacle_moving and waits < most_waits              | Wait    |          |
+//! | Blocked | is_changing, has_room is false                         | Decide  | Close    |
 //! | Blocked | detours_here >= most_detours                           | Decide  | Close    |
 //! | Blocked | left_m is the smaller one, or the only one             | Decide  | Left     |
 //! | Blocked | right_m is known                                       | Decide  | Right    |
@@ -89,11 +94,13 @@ fn row(facts: &StateFacts) -> (State, Action) {
     let state = match facts.state {
         State::Hold if facts.mode == Mode::Manual => State::Hold,
         State::Hold if !facts.has_way => State::Blocked,
+        State::Hold if facts.is_changing && !facts.has_room => State::Blocked,
+        State::Hold if facts.is_changing => State::Hold,
         State::Hold if facts.has_goal => State::Decide,
         State::Hold => State::Hold,
         State::Decide if !facts.has_goal => State::Hold,
         State::Decide if facts.scans == 0 => State::Wait,
-        State::Decide if is_there => State::Hold,
+        State::Decide if facts.is_changing || is_there => State::Hold,
         State::Decide if facts.is_contact || facts.free_m < reach => State::Blocked,
         State::Decide if !is_turned => State::Turn,
         State::Decide => State::Move,
@@ -118,6 +125,8 @@ fn blocked(facts: &StateFacts) -> (State, Action) {
     let settings = &facts.settings;
     let is_early =
         facts.retries < settings.most_retries || facts.time_s < settings.no_way_after_s && !facts.is_shut;
+    let leads_on =
+        facts.has_way && !(facts.mode == Mode::Route && facts.closed_here >= settings.most_reports);
     let is_left = facts.left_m.is_some_and(|left| facts.right_m.is_none_or(|right| left <= right));
     match () {
         () if facts.is_busy => (State::Blocked, Action::None),
@@ -126,9 +135,10 @@ fn blocked(facts: &StateFacts) -> (State, Action) {
         }
         () if !facts.is_scan_complete => (State::Wait, Action::None),
         () if facts.mode == Mode::Learn => (State::Hold, Action::NoWay),
-        () if !facts.has_way && is_early => (State::Decide, Action::Retry),
-        () if !facts.has_way => (State::Hold, Action::NoWay),
+        () if !leads_on && is_early => (State::Decide, Action::Retry),
+        () if !leads_on => (State::Hold, Action::NoWay),
         () if facts.is_obstacle_moving && facts.waits < settings.most_waits => (State::Wait, Action::None),
+        () if facts.is_changing && !facts.has_room => (State::Decide, Action::Close),
         () if facts.detours_here >= settings.most_detours => (State::Decide, Action::Close),
         () if is_left => (State::Decide, Action::Left),
         () if facts.right_m.is_some() => (State::Decide, Action::Right),

@@ -3,7 +3,7 @@
 use super::{Explorer, Guide, Learned};
 use crate::floor_plan::{Disc, FloorPlan};
 use crate::geometry::{Point, Segment};
-use crate::navigation::mission::{frame, overlap, state_caption};
+use crate::navigation::mission::{frame, state_caption};
 use crate::navigation::{Building, Ending, Entry, Happening, Outfit};
 use crate::pose::Pose;
 use crate::simulator::{Film, SimulationError, Simulator};
@@ -78,7 +78,7 @@ impl Exploration {
             let (truth, thought) = (body.pose(), explorer.navigator().estimate().pose);
             explored.path_m += before.at.distance(truth.at);
             explored.worst_error_m = explored.worst_error_m.max(thought.at.distance(truth.at));
-            explored.overlap_m = explored.overlap_m.max(overlap(&body));
+            explored.overlap_m = explored.overlap_m.max(body.overlap_m());
             for event in explorer.take_events() {
                 explored.looks += u32::from(matches!(event.what, Happening::SetEstimatedPosition(_)));
                 if let Some(Some(film)) = film.as_deref_mut() {

@@ -31,6 +31,9 @@ impl Navigator<'_> {
                 self.stop(body);
                 return self.reached(facts);
             }
+            State::Hold if facts.is_changing && !facts.is_busy => {
+                body.command(Command::Change { to: self.needed });
+            }
             State::Turn if is_entered || !facts.is_busy => self.turn(body),
             State::Move if is_entered || !facts.is_busy => self.set_off(body, is_entered),
             State::Wait if is_entered => {
@@ -67,7 +70,7 @@ impl Navigator<'_> {
             self.line = Line { from: at, nearest_m: at.distance(target) };
             self.contact = None;
         }
-        self.drive_straight(body, at.distance(target).min(self.settings.stride_m));
+        self.drive_straight(body, at.distance(target).min(self.figures().stride_m));
     }
 
     /// Withdraws from a touch: straight, or after a turn towards it where it is aside.
@@ -97,10 +100,11 @@ impl Navigator<'_> {
     }
 
     pub(super) fn reached(&mut self, facts: &StateFacts) -> Option<Ending> {
-        if facts.has_goal && facts.distance_m <= self.settings.goal_tolerance_m {
+        if facts.has_goal && facts.distance_m <= facts.settings.goal_tolerance_m {
             let reached = self.legs.pop_front()?;
+            self.came_from = reached;
             self.tell(Happening::Reached(reached));
-            return self.legs.is_empty().then_some(Ending::Arrived);
+            return (self.legs.is_empty() && !self.goes_on()).then_some(Ending::Arrived);
         }
         None
     }
@@ -109,6 +113,7 @@ impl Navigator<'_> {
         let (taken, other) = pick(self.detours.take().unwrap_or_default());
         let Some(points) = taken else { return };
         self.spot.detours += 1;
+        self.came_from = self.pose().at;
         self.legs.pop_front();
         for &point in points.iter().skip(1).rev() {
             self.legs.push_front(point);

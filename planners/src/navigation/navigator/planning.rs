@@ -9,7 +9,7 @@ use crate::navigation::detour::Detours;
 use crate::navigation::event::Happening;
 use crate::navigation::field::Ground;
 use crate::navigation::highway::{free_ahead, is_clear};
-use crate::navigation::judge::{Judge, State};
+use crate::navigation::judge::{Judge, Mode, State};
 use crate::navigation::known::Memory;
 use crate::navigation::route::{Route, off_network, over_network};
 
@@ -38,7 +38,11 @@ impl Navigator<'_> {
 
     /// Detours with room on either side, unless they are much longer than those with little.
     pub(super) fn detours(&self, from: Point, to: Point) -> Detours {
-        let narrow = self.ground(&self.barriers);
+        let mut barriers = self.barriers.clone();
+        let closed = self.building.closed.iter().copied();
+        barriers.splice(self.obstacles_from..self.obstacles_from, closed);
+        let obstacles_from = self.obstacles_from + self.building.closed.len();
+        let narrow = Ground { obstacles_from, ..self.ground(&barriers) };
         let wide = Ground { reach: self.radius_m + self.settings.detour_room_m, ..narrow };
         let found = narrow.detours(from, to);
         let Some(shortest) = found.shortest_m() else { return found };
@@ -68,8 +72,11 @@ impl Navigator<'_> {
             let stop = at.lerp(target, share);
             let met = free.by.map(|by| self.barriers[by]);
             let at = met.map_or(stop, |barrier| stop.nearest_on(barrier.a, barrier.b));
+            let at = self.met_beside_change().map_or(at, |met| met.nearest_to(self.pose().at));
             let (doorway, region) = self.blocked.note(&self.building.network, at, reach);
-            self.tell(Happening::WayClosed { at, doorway, region });
+            let mut seen = self.obstacles(1);
+            seen.retain(|surface| surface.distance(at) <= self.settings.detour_reach_m);
+            self.tell(Happening::WayClosed { at, doorway, region, seen });
         }
         self.replans += 1;
         self.ask_for_doorways(judge);
@@ -130,6 +137,9 @@ impl Navigator<'_> {
     /// Looks for a path to the goal over the network; through free space as it is known where that has none.
     pub(super) fn plan(&mut self, judge: &mut impl Judge, is_off_network: bool) {
         let Some(goal) = self.goal else { return };
+        if self.mode == Mode::Route {
+            return self.ask_for_way();
+        }
         let ends = [self.pose().at, goal];
         let mut barriers = self.barriers[..self.obstacles_from].to_vec();
         // Where detours found nothing again and again, what they saw in the way counts, too.

@@ -16,6 +16,7 @@ impl Navigator<'_> {
         let is_held = !sensed.is_busy && self.course.is_some_and(|course| course.is_held(&sensed));
         let touch = sensed.contact.filter(|_| before.is_none() || is_held);
         self.sensed = Some(sensed);
+        self.take_shape(sensed.shape);
         self.keep_track();
         self.part.push(sensed.reading);
         self.readings_standing = if sensed.is_busy { 0 } else { self.readings_standing + 1 };
@@ -71,7 +72,7 @@ impl Navigator<'_> {
 
     /// Brings what is in the way up to date.
     pub(super) fn gather(&mut self) {
-        self.barriers.truncate(self.building.walls.len());
+        self.barriers.truncate(self.building.walls.len() + self.building.overhead.len());
         let doorways = &self.building.network.regions.doorways;
         let line = |&doorway: &usize| Segment::new(doorways[doorway].from, doorways[doorway].to);
         self.barriers.extend(self.forbidden.iter().map(line));

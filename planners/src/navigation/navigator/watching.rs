@@ -28,24 +28,27 @@ impl Navigator<'_> {
             is_contact: self.contact.is_some(),
             back_offs: self.back_offs,
             is_busy: self.sensed.is_some_and(|sensed| sensed.is_busy),
+            is_changing: self.is_changing(),
+            has_room: self.met_beside_change().is_none(),
             is_scan_complete: self.is_scan_complete(),
             scans: self.scans,
             left_m: detours.and_then(|detours| length_of(&detours.left)),
             right_m: detours.and_then(|detours| length_of(&detours.right)),
             detours_here: self.spot.detours,
+            closed_here: self.spot.closed,
             waits: self.spot.waits,
             has_way: self.has_way,
             is_shut: self.is_shut,
             retries: self.retries,
             time_s: self.time_s() - self.begun_s,
-            settings: self.settings,
+            settings: self.figures(),
         }
     }
 
     /// Metres ahead that are free in the model, and whether what is there moves.
     pub(super) fn free_m(&self, target: Option<Point>) -> (f64, bool) {
         let Some(target) = target else { return (0.0, false) };
-        let reach = [self.radius_m, self.radius_m + self.settings.highway_clearance_m];
+        let reach = [self.radius_m, self.radius_m + self.figures().highway_clearance_m];
         let standing = free_ahead(self.pose().at, target, reach, &self.barriers);
         let moving = free_ahead(self.pose().at, target, reach, &self.moving);
         (standing.metres.min(moving.metres), moving.by.is_some() && moving.metres <= standing.metres)

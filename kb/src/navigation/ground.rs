@@ -1,0 +1,162 @@
+//! A site whose rooms are cut by state, as a robot drives in it: what stands, what hangs low, and its shapes.
+
+use std::collections::BTreeMap;
+
+use adit_planners::floor_plan::{Disc, FloorPlan, Network};
+use adit_planners::geometry::{Point, Rect, Segment};
+use adit_planners::navigation::{Building, Settings, Stretch};
+use adit_planners::simulator::{Shape, Shapes};
+
+use crate::answer::{Answer, Status, pick};
+use crate::error::{Code, Error, Result};
+use crate::graph::Building as Spaces;
+use crate::plan::figures;
+use crate::state::State;
+
+/// How fast a robot is whose table does not say it, metres a second.
+const SPEED_M_S: f64 = 0.5;
+
+/// A site as one of its robots drives in it.
+#[derive(Debug)]
+pub struct Ground {
+    pub robot: String,
+    /// The names of the robot's shapes, by number: those of its states in which it can move.
+    pub states: Vec<String>,
+    pub shapes: Shapes,
+    /// The building as it is for the robot in each shape.
+    pub buildings: Vec<Building>,
+    /// What stands, whatever the robot's height.
+    pub plan: FloorPlan,
+    pub walls: Vec<Segment>,
+    /// Where spaces go over into each other.
+    pub doorways: Vec<Segment>,
+    pub settings: Settings,
+    /// Hardness of changes of shape, by shapes.
+    changes: BTreeMap<(usize, usize), f64>,
+}
+
+impl Ground {
+    /// The site as it is now, for one of its robots.
+    pub fn of(state: &State, robot: Option<&str>) -> Result<Self> {
+        let robot = pick(&state.robots(), robot)?;
+        let plan =
+            FloorPlan::of_world(&state.world, Some(0.0)).map_err(|errors| Error::all(errors.problems))?;
+        let walls: Vec<Segment> = plan.barriers().into_iter().map(Segment::from).collect();
+        let asked = state.asked();
+        let mut settings = Settings::default();
+        figures::read(asked.objects("NAVIGATION"), Settings::FIGURES, &mut settings)?;
+        let rows = asked.objects("ROBOTS");
+        let mut ground = Self {
+            shapes: Shapes { all: Vec::new(), seconds: BTreeMap::new() },
+            doorways: state.graph().building.doorways.iter().map(Spaces::segment).collect(),
+            robot,
+            states: Vec::new(),
+            buildings: Vec::new(),
+            plan,
+            walls,
+            settings,
+            changes: BTreeMap::new(),
+        };
+        for row in rows.rows() {
+            let of =
+                (rows.text(row, "robot").unwrap_or_default(), rows.text(row, "state").unwrap_or_default());
+            let has_rooms = state.graph().rooms.iter().any(|room| room.layer.as_ref() == Some(&of));
+            if of.0 == ground.robot && has_rooms {
+                ground.add(state, of.1, rows.number(row, "speed"))?;
+            }
+        }
+        if ground.states.is_empty() {
+            let message = format!("{} has rooms in no state: there is nowhere to drive", ground.robot);
+            return Err(Error::said(Code::SimulateImpossible, message, None));
+        }
+        ground.settings.speed_m_s =
+            ground.shapes.all.iter().map(|shape| shape.greatest_speed_m_s).fold(0.0, f64::max);
+        let rows = asked.objects("CHANGES");
+        for row in rows.rows() {
+            let shape = |name| rows.text(row, name).and_then(|state| ground.shape(&state));
+            let is_own = rows.text(row, "robot").is_some_and(|robot| robot == ground.robot);
+            if let (true, Some(from), Some(to)) = (is_own, shape("from_state"), shape("to_state")) {
+                ground.shapes.seconds.extend(rows.number(row, "seconds").map(|value| ((from, to), value)));
+                ground.changes.extend(rows.number(row, "hardness").map(|value| ((from, to), value)));
+            }
+        }
+        Ok(ground)
+    }
+
+    /// A shape more: that of a state.
+    fn add(&mut self, state: &State, name: String, speed: Option<f64>) -> Result<()> {
+        let of = (self.robot.clone(), name);
+        let Some(size) = state.gauge.size(&of) else { return Ok(()) };
+        if let Some(length) = size.length {
+            let message = format!(
+                "{} is {length} m long in its state {}, and robots that are simulated are round",
+                of.0, of.1
+            );
+            let help = "missions are driven by robots whose states have a width alone".to_owned();
+            return Err(Error::said(Code::SimulateImpossible, message, Some(help)));
+        }
+        let radius = size.width / 2.0;
+        let low = state.world.bridges.iter().filter(|bridge| size.height >= bridge.height);
+        let overhead: Vec<Rect> = low.map(|bridge| bridge.rect).collect();
+        let sides = overhead.iter().flat_map(Rect::sides).collect();
+        let network = Network::none(Disc { radius, margin: 0.0 });
+        self.buildings.push(Building { overhead: sides, ..Building::of_walls(network, self.walls.clone()) });
+        self.shapes.all.push(Shape {
+            radius_m: radius,
+            greatest_speed_m_s: speed.unwrap_or(SPEED_M_S),
+            overhead,
+        });
+        self.states.push(of.1);
+        Ok(())
+    }
+
+    /// The number of the shape of a state.
+    pub fn shape(&self, state: &str) -> Option<usize> {
+        self.states.iter().position(|known| known == state)
+    }
+
+    /// The radius of the smallest shape, metres.
+    pub fn least_radius(&self) -> f64 {
+        self.shapes.all.iter().map(|shape| shape.radius_m).fold(f64::INFINITY, f64::min)
+    }
+
+    /// A route as it is driven, from shape to shape; `None` where there is none.
+    pub fn stretches(&self, answer: &Answer) -> Option<Vec<Stretch>> {
+        if !matches!(answer.status, Status::Ok | Status::SameRoom) {
+            return None;
+        }
+        let mut way: Vec<Stretch> = Vec::new();
+        for waypoint in &answer.waypoints {
+            let (at, shape) = (Point::new(waypoint.x, waypoint.y), self.shape(waypoint.state.as_deref()?)?);
+            match way.last_mut() {
+                Some(stretch) if stretch.shape == shape => stretch.points.push(at),
+                Some(stretch) => {
+                    let from = stretch.points.last().copied().unwrap_or(at);
+                    way.push(Stretch { shape, points: vec![from, at] });
+                }
+                None => way.push(Stretch { shape, points: vec![at] }),
+            }
+        }
+        Some(way)
+    }
+
+    /// The hardness of what a robot did: of its metres by the rooms in which it went them, and of its changes of shape.
+    ///
+    /// # Arguments
+    /// `track` is where it was, in which shape. Where it was in no room of its shape, being a little off, the room before
+    /// counts.
+    pub fn hardness(&self, state: &State, track: &[(Point, usize)], changes: &[(usize, usize)]) -> f64 {
+        let graph = state.graph();
+        let (mut total, mut last) = (0.0, 0.0);
+        for leg in track.windows(2) {
+            let of = (self.robot.clone(), self.states[leg[0].1].clone());
+            let middle = leg[0].0.lerp(leg[1].0, 0.5);
+            let here = graph.rooms_at(&of, middle).filter_map(|room| graph[room].hardness.value);
+            last = here
+                .fold(None, |least: Option<f64>, one| Some(least.map_or(one, |least| least.min(one))))
+                .unwrap_or(last);
+            total += last * leg[0].0.distance(leg[1].0);
+        }
+        total + changes.iter().map(|change| self.changes.get(change).copied().unwrap_or(0.0)).sum::<f64>()
+    }
+}

@@ -1,0 +1,391 @@
+//! Missions on a site whose rooms are cut by state: a simulated robot drives the site's own routes, changes its shape where
+//! they say so, and asks for another route where its way is closed.
+
+use std::collections::BTreeMap;
+use std::mem;
+use std::time::Instant;
+
+use adit_db::history::Author;
+use adit_engine::RuleBase;
+use adit_planners::geometry::{Point, Rect, Segment, polygon};
+use adit_planners::navigation::{
+    Drivable, Ending, Entry, Met, Mission, Outfit, ROOM_M, Routed, Router, Stretch, draw_along,
+};
+use adit_planners::pose::Pose;
+use adit_planners::simulator::Film;
+
+use super::ground::Ground;
+use super::judge::{Noting, RuleJudge};
+use super::missions::{Journal, Row, TOUCH_M, ending, refuse};
+use crate::answer::Answer;
+use crate::edit::{Edit, Errand, Lay, Thing};
+use crate::error::{Code, Error, Result};
+use crate::live::Live;
+
+/// A robot that is a little off is taken to be where it fits, up to so far, metres.
+const OFF_M: f64 = 0.5;
+
+/// How long what a robot reports holds.
+const REPORTED: &str = "1h";
+
+/// So far points that stay clear are off what is laid beside them, metres.
+const HAIR_M: f64 = 1e-3;
+
+/// Finds the site's routes, for a robot that is driven on it.
+struct Site<'l> {
+    live: &'l mut Live,
+    ground: &'l Ground,
+    goal: String,
+    mission: usize,
+    /// Whether the site is told what the robot met; otherwise that holds for this mission alone.
+    tells: bool,
+    /// What was laid over the map and lies there, by name.
+    told: Vec<(String, Vec<Point>)>,
+    /// How much was.
+    laid: usize,
+    /// What became of it, in sentences.
+    said: Vec<String>,
+    trouble: Option<Error>,
+}
+
+impl Router for Site<'_> {
+    fn way(&mut self, from: Point, shape: usize, met: &[Met]) -> Option<Vec<Stretch>> {
+        let way = self.found(from, shape, met);
+        way.unwrap_or_else(|error| {
+            self.trouble.get_or_insert(error);
+            None
+        })
+    }
+}
+
+impl Site<'_> {
+    fn found(&mut self, from: Point, shape: usize, met: &[Met]) -> Result<Option<Vec<Stretch>>> {
+        let things = self.things(met, from);
+        let mut edits = Vec::new();
+        if self.tells {
+            self.tell(&things)?;
+        } else {
+            let lay = |(number, thing): (usize, &Vec<Point>)| {
+                Edit::Lay(laid(format!("met in this mission, {number}"), thing))
+            };
+            edits.extend((1..).zip(&things).map(lay));
+        }
+        // where it saw nothing, the way is too narrow for it, though nobody else need find it so
+        let narrow = met.iter().filter(|met| met.seen.is_empty()).map(named);
+        let errand = Errand {
+            avoid: narrow.collect(),
+            start_state: Some(self.ground.states[shape].clone()),
+            ..Errand::default()
+        };
+        let ask = |errand: &Errand| asked(self.live, &edits, (from, &self.goal), errand, &self.ground.robot);
+        let mut answer = ask(&errand)?;
+        if answer.cost.is_none() {
+            // where its shape does not fit by what it saw, another one may
+            answer = ask(&Errand { start_state: None, ..errand })?;
+        }
+        Ok(self.ground.stretches(&answer))
+    }
+
+    /// What the robot saw and did not know of, as outlines of things that stand on the map; none stands where the robot does, or
+    /// on a place. Where it was in the way again, though the route left room for it, it is taken to be thicker.
+    fn things(&self, met: &[Met], from: Point) -> Vec<Vec<Point>> {
+        let settings = &self.ground.settings;
+        let places = self.ground.plan.places().iter().map(|place| place.at);
+        let clear: Vec<Point> = places.chain([from]).collect();
+        let thick = |(number, one): (usize, &Met)| {
+            let before =
+                met[..number].iter().filter(|other| other.at.distance(one.at) <= settings.same_spot_m);
+            let grown = settings.squeeze_m * 2f64.powi(before.count() as i32);
+            let grown = grown.min(settings.detour_room_m);
+            let seen = one.seen.iter().flat_map(|surface| beside(surface, grown, &clear));
+            seen.map(|surface| grown_by(&surface, grown)).collect::<Vec<_>>()
+        };
+        things(met.iter().enumerate().flat_map(thick), &clear)
+    }
+
+    /// Lays over the map what was met, and lifts what the robot no longer believes to be there.
+    fn tell(&mut self, things: &[Vec<Point>]) -> Result<()> {
+        let Self { ground, mission, .. } = self;
+        let author = Author { who: ground.robot.clone(), why: format!("met in mission {mission}") };
+        let (kept, gone): (Vec<_>, Vec<_>) =
+            mem::take(&mut self.told).into_iter().partition(|(_, thing)| things.contains(thing));
+        self.told = kept;
+        let mut edits: Vec<Edit> = gone.into_iter().map(|(name, _)| Edit::Lift(name)).collect();
+        for thing in things {
+            if self.told.iter().all(|(_, told)| told != thing) {
+                self.laid += 1;
+                let name = format!("met by {} in mission {mission}, {}", ground.robot, self.laid);
+                let lay = laid(name.clone(), thing);
+                edits.push(Edit::Lay(Lay { until: Some(REPORTED.to_owned()), ..lay }));
+                let middle = Rect::around(thing.iter().copied()).centre();
+                self.said.push(format!(
+                    "laid over the map for an hour: something at {:.1}, {:.1}, {name}",
+                    middle.x, middle.y
+                ));
+                self.told.push((name, thing.clone()));
+            }
+        }
+        if !edits.is_empty() {
+            let outcome = self.live.edit(&Edit::Together(edits), &author)?;
+            self.said.extend(outcome.reacted);
+        }
+        Ok(())
+    }
+}
+
+fn laid(name: String, outline: &[Point]) -> Lay {
+    let corners = outline.iter().map(|at| [at.x, at.y]).collect();
+    Lay { what: Thing::Obstacle, name, corners, ..Lay::default() }
+}
+
+/// A surface in pieces, so that what is so near to them, metres, leaves points clear. Nobody comes through where it is parted.
+fn beside(surface: &Segment, metres: f64, clear: &[Point]) -> Vec<Segment> {
+    let (along, length) = (surface.direction(), surface.length());
+    let is_near = |at: &&Point| surface.distance(**at) <= 2.0 * metres;
+    let mut feet: Vec<f64> = clear.iter().filter(is_near).map(|at| (*at - surface.a).dot(along)).collect();
+    feet.sort_by(f64::total_cmp);
+    let free = metres + HAIR_M;
+    let ends = feet.iter().flat_map(|foot| [foot - free, foot + free]);
+    let ends: Vec<f64> = [0.0].into_iter().chain(ends).chain([length]).collect();
+    let pieces = ends.chunks_exact(2).map(|piece| [piece[0].clamp(0.0, length), piece[1].clamp(0.0, length)]);
+    let pieces = pieces.filter(|[from, to]| to > from);
+    pieces.map(|[from, to]| Segment::new(surface.a + along * from, surface.a + along * to)).collect()
+}
+
+/// A surface with what is so near to it, metres, as a rectangle.
+fn grown_by(surface: &Segment, metres: f64) -> Vec<Point> {
+    let along = surface.direction() * metres;
+    let (aside, a, b) = (along.perpendicular(), surface.a - along, surface.b + along);
+    vec![a - aside, b - aside, b + aside, a + aside]
+}
+
+/// The least convex things that hold these, which are convex, counterclockwise; those that meet are one. None of the clear points
+/// lies in them: where one would, they stay apart.
+fn things(all: impl IntoIterator<Item = Vec<Point>>, clear: &[Point]) -> Vec<Vec<Point>> {
+    let is_apart = |thing: &[Point]| clear.iter().all(|at| !polygon::is_in_convex(thing, *at, 0.0));
+    let mut things: Vec<Vec<Point>> = Vec::new();
+    for mut thing in all {
+        let joined = |other: &[Point], thing: &[Point]| {
+            let hull = || polygon::hull(other.iter().chain(thing).copied());
+            polygon::do_convex_meet(other, thing).then(hull).filter(|hull| is_apart(hull))
+        };
+        while let Some((place, hull)) =
+            things.iter().enumerate().find_map(|(place, other)| Some((place, joined(other, &thing)?)))
+        {
+            things.remove(place);
+            thing = hull;
+        }
+        things.push(thing);
+    }
+    things.retain(|thing| is_apart(thing));
+    things
+}
+
+/// A route from where a robot is, or may be, on an errand, after edits that nobody keeps.
+fn asked(
+    live: &Live,
+    edits: &[Edit],
+    (from, goal): (Point, &str),
+    errand: &Errand,
+    robot: &str,
+) -> Result<Answer> {
+    let start = format!("{:?},{:?}", from.x, from.y);
+    let state = live.fork().within(Some(OFF_M))?;
+    state.route_after(edits, errand, (&start, &[goal.to_owned()]), Some(robot))
+}
+
+/// As closings name it: the point, and the degrees into which the robot looked.
+fn named(met: &Met) -> String {
+    format!("{:.3},{:.3}@{:.0}", met.at.x, met.at.y, met.heading.to_degrees())
+}
+
+/// Missions on a site.
+pub struct Missions<'l> {
+    pub live: &'l mut Live,
+    pub ground: &'l Ground,
+    /// The rules that drive the robot.
+    pub rules: &'l std::sync::Arc<RuleBase>,
+    /// Whether the site is told what the robot meets.
+    pub tells: bool,
+}
+
+impl Missions<'_> {
+    /// A mission between two points, without obstacles.
+    pub fn between(&self, [start, goal]: [Point; 2], heading: f64, seed: u64) -> Mission {
+        Mission { start: Pose { at: start, heading }, goal, obstacles: Vec::new(), seed }
+    }
+
+    /// Missions drawn by chance, with up to five boxes that the robot does not know.
+    pub fn drawn(&self, count: usize, seed: u64) -> Result<Vec<Mission>> {
+        let radius = self.ground.least_radius();
+        let of = |number: usize| {
+            // Far apart, so that seeds that lie together give different missions.
+            let seed = seed.wrapping_add((number as u64 + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15));
+            let mut trouble = None;
+            let mission =
+                draw_along(&self.ground.plan, &self.ground.doorways, radius, seed, |start, goal| {
+                    let goal = format!("{:?},{:?}", goal.x, goal.y);
+                    match asked(self.live, &[], (start, &goal), &Errand::default(), &self.ground.robot) {
+                        Ok(answer) => {
+                            let way = self.ground.stretches(&answer)?;
+                            Some(way.into_iter().flat_map(|stretch| stretch.points).collect())
+                        }
+                        Err(error) => {
+                            trouble.get_or_insert(error);
+                            None
+                        }
+                    }
+                });
+            match (mission, trouble) {
+                (Some(mission), _) => Ok(mission),
+                (None, Some(trouble)) => Err(trouble),
+                (None, None) => {
+                    let message =
+                        "the site has no room for missions: start and goal need some metres between them";
+                    Err(Error::said(Code::SimulateNoRoom, message, None))
+                }
+            }
+        };
+        (0..count).map(of).collect()
+    }
+
+    /// Runs a mission, and judges it by what is possible with its obstacles where they come to rest.
+    ///
+    /// # Returns
+    /// Beside the mission with its journal what the site was told, and what followed, in sentences.
+    pub fn run(
+        &mut self,
+        (number, mission): (usize, &Mission),
+        film: Option<&mut Option<Film>>,
+    ) -> Result<(Journal, Vec<String>)> {
+        let before = Instant::now();
+        let (ground, goal) = (self.ground, format!("{:?},{:?}", mission.goal.x, mission.goal.y));
+        let first = asked(self.live, &[], (mission.start.at, &goal), &Errand::default(), &ground.robot)?;
+        let shape = self.first_shape(&first, mission.start.at)?;
+        let judged = self.judged(mission, &goal, shape)?;
+        let on =
+            Drivable { walls: &ground.walls, shapes: &ground.shapes, shape, buildings: &ground.buildings };
+        let mut outfit = Outfit { navigation: ground.settings, ..Outfit::default() };
+        outfit.robot.radius_m = ground.shapes.all[shape].radius_m;
+        let mut site = Site {
+            live: self.live,
+            ground,
+            goal,
+            mission: number,
+            tells: self.tells,
+            told: Vec::new(),
+            laid: 0,
+            said: Vec::new(),
+            trouble: None,
+        };
+        let mut judge = RuleJudge::of_rules(self.rules)?;
+        let mut noting = Noting::new(&mut judge);
+        let mut entries: Vec<Entry> = Vec::new();
+        let routed = mission
+            .run_routed(&on, &outfit, &mut site, &mut noting, |entry| entries.push(entry), film)
+            .map_err(Error::of(Code::SimulateImpossible))?;
+        let (said, trouble, decided) = (site.said, site.trouble, noting.decided);
+        if let Some(trouble) = trouble {
+            return Err(trouble);
+        }
+        refuse(judge.trouble())?;
+        let row = self.row((number, mission), &routed, &judged, before.elapsed().as_secs_f64() * 1e3);
+        Ok(((row, entries, decided), said))
+    }
+
+    /// In which shape the robot begins: as its route does; without one, in the first that fits there.
+    fn first_shape(&self, first: &Answer, at: Point) -> Result<usize> {
+        let by_route =
+            first.waypoints.first().and_then(|waypoint| self.ground.shape(waypoint.state.as_deref()?));
+        let state = self.live.fork();
+        let fitting = state.graph().states_at(&state.gauge, at, Some(&self.ground.robot));
+        let fits = |shape: usize| fitting.contains(&self.ground.states[shape].as_str());
+        let shape = by_route.filter(|shape| fits(*shape));
+        shape.or_else(|| (0..self.ground.states.len()).find(|shape| fits(*shape))).ok_or_else(|| {
+            let message =
+                format!("no robot can begin at ({:?}, {:?}): it fits there in no state", at.x, at.y);
+            Error::said(Code::SimulateImpossible, message, None)
+        })
+    }
+
+    /// What is possible for who knows of all obstacles.
+    fn judged(&self, mission: &Mission, goal: &str, shape: usize) -> Result<Judged> {
+        let errand = Errand { start_state: Some(self.ground.states[shape].clone()), ..Errand::default() };
+        let boxes = (1..).zip(&mission.obstacles);
+        let boxes = boxes.map(|(number, obstacle): (usize, _)| {
+            Edit::Lay(laid(format!("unknown box {number}"), &obstacle.at_rest()))
+        });
+        let mut edits: Vec<Edit> = boxes.collect();
+        let ends = (mission.start.at, goal);
+        let known = asked(self.live, &edits, ends, &errand, &self.ground.robot)?;
+        edits.extend(self.wider(2.0 * ROOM_M));
+        let roomy = asked(self.live, &edits, ends, &errand, &self.ground.robot)?;
+        Ok(Judged {
+            is_possible: known.cost.is_some(),
+            is_with_room: roomy.cost.is_some(),
+            best: known.cost,
+            metres: known.distance,
+        })
+    }
+
+    /// What makes the robot wider in each of its states.
+    fn wider(&self, by_m: f64) -> impl Iterator<Item = Edit> + '_ {
+        self.ground.states.iter().zip(&self.ground.shapes.all).map(move |(state, shape)| {
+            let key = format!("{}/{state}", self.ground.robot);
+            let width = format!("{:?}", 2.0 * shape.radius_m + by_m);
+            Edit::Set("robots".to_owned(), key, "width".to_owned(), width)
+        })
+    }
+
+    fn row(
+        &self,
+        (number, mission): (usize, &Mission),
+        routed: &Routed,
+        judged: &Judged,
+        milliseconds: f64,
+    ) -> Row {
+        let radius = self.ground.shapes.all[routed.shape].radius_m;
+        let states = self.ground.states.iter().cloned().zip(routed.metres.iter().copied());
+        let by_state: BTreeMap<String, f64> = states.filter(|(_, metres)| *metres > 0.0).collect();
+        Row {
+            mission: number,
+            seed: mission.seed,
+            start: [mission.start.at.x, mission.start.at.y],
+            goal: [mission.goal.x, mission.goal.y],
+            obstacles: mission.obstacles.len(),
+            ending: ending(routed.ending),
+            possible: Some(judged.is_possible),
+            possible_with_room: Some(judged.is_with_room),
+            right: Some(match routed.ending {
+                Ending::Arrived => judged.is_possible && routed.miss_m <= radius,
+                Ending::NoWay => !judged.is_with_room,
+                Ending::OutOfPatience => false,
+            }),
+            length: routed.metres.iter().sum(),
+            optimum: judged.metres,
+            by_state,
+            changes: routed.changes.len() as u32,
+            cost: Some(self.ground.hardness(&self.live.fork(), &routed.track, &routed.changes)),
+            least_cost: judged.best,
+            replans: routed.replans,
+            detours: routed.detours,
+            touches: routed.touches,
+            collided: routed.overlap_m > TOUCH_M,
+            miss: routed.miss_m,
+            worst_error: routed.worst_error_m,
+            seconds: routed.simulated_s,
+            milliseconds,
+        }
+    }
+}
+
+/// What is possible for who knows of all obstacles where they come to rest.
+struct Judged {
+    is_possible: bool,
+    /// Whether it is for a robot with room to spare on either side, in each of its states.
+    is_with_room: bool,
+    /// The hardness of the best route.
+    best: Option<f64>,
+    /// Its length.
+    metres: Option<f64>,
+}

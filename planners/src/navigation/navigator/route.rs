@@ -1,0 +1,118 @@
+//! Ways that somebody else finds: gone stretch by stretch, each in the shape that it asks for.
+
+use super::{Navigator, Spot};
+use crate::geometry::{Point, Segment, path_length};
+use crate::navigation::Settings;
+use crate::navigation::event::Happening;
+use crate::navigation::judge::Mode;
+use crate::navigation::stretch::Stretch;
+
+/// No robot keeps to a way more exactly than for so much room beside it, metres.
+const LEAST_ROOM_M: f64 = 0.03;
+
+impl Navigator<'_> {
+    /// Goes to a goal by ways that are [given](Self::take_way) to it, from now on.
+    pub fn go_by_route(&mut self, goal: Point) {
+        (self.mode, self.goal, self.retries, self.scans) = (Mode::Route, Some(goal), 0, 0);
+        (self.begun_s, self.spot) = (self.time_s(), Spot::default());
+        self.ask_for_way();
+    }
+
+    /// Whether it waits for a way to be given to it: at first, and where the one that it had is closed.
+    pub fn wants_way(&self) -> bool {
+        self.wants_way
+    }
+
+    /// Takes a way to the goal from where it is; `None` where there is none.
+    ///
+    /// # Arguments
+    /// `is_shut` is whether there is none even if nothing that the robot met is in the way.
+    pub fn take_way(&mut self, way: Option<Vec<Stretch>>, is_shut: bool) {
+        (self.wants_way, self.has_way, self.is_shut) = (false, way.is_some(), is_shut && way.is_none());
+        let Some(way) = way else { return };
+        let points: Vec<Point> = way.iter().flat_map(|stretch| &stretch.points).copied().collect();
+        let length_m = path_length(&points);
+        self.stretches = way.into();
+        self.goes_on();
+        self.tell(Happening::Planned { points, length_m, is_off_network: false });
+    }
+
+    /// Drops the way that it has, and waits for another one.
+    pub(super) fn ask_for_way(&mut self) {
+        self.legs.clear();
+        self.stretches.clear();
+        (self.wants_way, self.has_way, self.detours) = (true, false, None);
+    }
+
+    /// Takes up the next stretch of the way.
+    ///
+    /// # Returns
+    /// Whether there is one.
+    pub(super) fn goes_on(&mut self) -> bool {
+        let Some(Stretch { shape, points }) = self.stretches.pop_front() else { return false };
+        // it stands at the first one already
+        let at_it = usize::from(points.len() > 1);
+        self.came_from = points.first().copied().unwrap_or_else(|| self.pose().at);
+        (self.needed, self.legs) = (shape, points.into_iter().skip(at_it).collect());
+        true
+    }
+
+    /// The figures as they hold on the leg that is gone: on ways that somebody else found, where there may be hardly any room
+    /// beside the robot, it keeps to them the more exactly the less there is.
+    pub(super) fn figures(&self) -> Settings {
+        let figures = self.settings;
+        let Some(&target) = self.legs.front().filter(|_| self.mode == Mode::Route) else { return figures };
+        let leg = Segment::new(self.came_from, target);
+        let known = &self.barriers[..self.obstacles_from];
+        let nearest = known.iter().map(|barrier| leg.gap(barrier)).fold(f64::INFINITY, f64::min);
+        let mut room = nearest - self.radius_m;
+        if let (1, Some(next)) = (self.legs.len(), self.stretches.front())
+            && let Some(building) = self.shapes.get(next.shape)
+        {
+            // it changes its shape there
+            let known = building.walls.iter().chain(&building.overhead);
+            let nearest = known.map(|barrier| barrier.distance(target)).fold(f64::INFINITY, f64::min);
+            room = room.min(nearest - building.network.disc.radius);
+        }
+        let room = room.max(LEAST_ROOM_M);
+        let off = room / 2.0;
+        Settings {
+            goal_tolerance_m: figures.goal_tolerance_m.min(off),
+            highway_half_width_m: figures.highway_half_width_m.min(room),
+            highway_clearance_m: figures.highway_clearance_m.min(off),
+            turning_resolution: figures
+                .turning_resolution
+                .min((off / self.pose().at.distance(target).max(off)).asin()),
+            stride_m: figures.stride_m.min(figures.stride_to_room * room),
+            ..figures
+        }
+    }
+
+    /// Whether the robot has to be in another shape before it goes on.
+    pub(super) fn is_changing(&self) -> bool {
+        !self.legs.is_empty() && self.sensed.is_some_and(|sensed| sensed.shape != self.needed)
+    }
+
+    /// What was met and leaves no room for the shape in which the robot has to be before it goes on.
+    pub(super) fn met_beside_change(&self) -> Option<Segment> {
+        let shape = self.shapes.get(self.needed).filter(|_| self.is_changing())?;
+        let radius = shape.network.disc.radius;
+        let reach = if radius > self.radius_m { radius + self.settings.detour_clearance_m } else { 0.0 };
+        let at = self.pose().at;
+        let met = self.barriers[self.obstacles_from..].iter().chain(&self.moving);
+        met.filter(|met| met.distance(at) < reach)
+            .min_by(|one, other| one.distance(at).total_cmp(&other.distance(at)))
+            .copied()
+    }
+
+    /// Looks at the building as it is for the robot in a shape.
+    pub(super) fn take_shape(&mut self, shape: usize) {
+        let Some(building) = self.shapes.get(shape) else { return };
+        if !std::ptr::eq(building, self.building) {
+            self.building = building;
+            self.barriers = [&building.walls[..], &building.overhead].concat();
+            self.tell(Happening::Shape(shape));
+            self.gather();
+        }
+    }
+}

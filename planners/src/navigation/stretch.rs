@@ -1,0 +1,210 @@
+//! Parts of a way, each gone in one shape.
+
+use std::f64::consts::TAU;
+
+use super::Settings;
+use super::known::Building;
+use crate::geometry::tolerance::ROUNDING_M;
+use crate::geometry::{Point, Segment};
+
+/// A part of a way that is gone in one shape.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stretch {
+    /// By number.
+    pub shape: usize,
+    /// From where it begins, which is where the one before it ends.
+    pub points: Vec<Point>,
+}
+
+/// Where there is room to change shape is looked for so finely, metres, in so many directions.
+const FINE_M: f64 = 0.05;
+const DIRECTIONS: usize = 16;
+
+/// Times that a point is moved away from what is nearest to it.
+const MOVES: usize = 4;
+
+/// The same way for a robot that is not exactly where it thinks that it is: it changes its shape where there is room for that,
+/// in both shapes, up to `change_reach` before or behind where the way says; and its points keep `room` free where that does
+/// not lead nearer to anything else.
+///
+/// # Arguments
+/// `shapes` is the building as it is for the robot in each shape.
+pub(super) fn with_room(mut way: Vec<Stretch>, shapes: &[Building], settings: &Settings) -> Vec<Stretch> {
+    way.retain(|stretch| shapes.get(stretch.shape).is_some());
+    for next in 1..way.len() {
+        let (before, after) = way.split_at_mut(next);
+        if let (Some(one), Some(other)) = (before.last_mut(), after.first_mut()) {
+            change_with_room(one, other, shapes, settings);
+        }
+    }
+    for stretch in &mut way {
+        let near = Near::of(&shapes[stretch.shape], &stretch.points, settings);
+        for place in 1..stretch.points.len().saturating_sub(1) {
+            near.move_away(&mut stretch.points, place, settings.detour_room_m);
+        }
+        stretch.points = near.thinned(&stretch.points, settings.detour_clearance_m);
+    }
+    way
+}
+
+/// Moves the point at which one stretch goes over into the other to the nearest one at which there is room for both shapes; to the
+/// one with most room, where there is not enough anywhere near.
+fn change_with_room(one: &mut Stretch, other: &mut Stretch, shapes: &[Building], settings: &Settings) {
+    let Some(&change) = one.points.last() else { return };
+    let before = one.points.iter().rev().nth(1).copied().unwrap_or(change);
+    let after = other.points.get(1).copied().unwrap_or(change);
+    let [near_one, near_other] =
+        [&one, &other].map(|stretch| Near::of(&shapes[stretch.shape], &[before, change, after], settings));
+    let need = settings.change_room_m;
+    let room = |at: Point| near_one.gap(at, at).min(near_other.gap(at, at)).min(need);
+    // straight there, or by way of where the route changes; as near to things as the route itself, or as ways may be
+    let leads = |near: &Near, end: Point, to: Point| {
+        let least = near.gap(end, change).min(settings.detour_clearance_m) - ROUNDING_M;
+        let is_straight = near.gap(end, to) >= least;
+        (is_straight || near.gap(change, to) >= least).then_some(is_straight)
+    };
+    let mut best = (room(change), change, [true, true]);
+    let rings = (settings.change_reach_m / FINE_M) as usize;
+    for (ring, direction) in
+        (1..=rings).flat_map(|ring| (0..DIRECTIONS).map(move |direction| (ring, direction)))
+    {
+        if best.0 >= need {
+            break;
+        }
+        let (sin, cos) = (TAU * direction as f64 / DIRECTIONS as f64).sin_cos();
+        let at = change + Point::new(cos, sin) * (ring as f64 * FINE_M);
+        let found = room(at);
+        if found > best.0 + ROUNDING_M
+            && let (Some(come), Some(go)) = (leads(&near_one, before, at), leads(&near_other, after, at))
+        {
+            best = (found, at, [come, go]);
+        }
+    }
+    let (_, at, [come, go]) = best;
+    if at != change {
+        if come && one.points.len() > 1 {
+            one.points.pop();
+        }
+        one.points.push(at);
+        if go && other.points.len() > 1 {
+            other.points.remove(0);
+        }
+        other.points.insert(0, at);
+    }
+}
+
+/// What stands and hangs near a path.
+struct Near {
+    radius_m: f64,
+    barriers: Vec<Segment>,
+}
+
+impl Near {
+    fn of(building: &Building, points: &[Point], settings: &Settings) -> Self {
+        let radius_m = building.network.disc.radius;
+        let reach = radius_m + settings.change_room_m.max(settings.detour_room_m) + settings.change_reach_m;
+        let is_near = |barrier: &&Segment| {
+            points.windows(2).any(|leg| Segment::new(leg[0], leg[1]).gap(barrier) <= reach)
+                || points.first().is_some_and(|at| barrier.distance(*at) <= reach)
+        };
+        let all = building.walls.iter().chain(&building.overhead);
+        Self { radius_m, barriers: all.filter(is_near).copied().collect() }
+    }
+
+    /// Metres that are free beside the robot's rim on a straight way.
+    fn gap(&self, from: Point, to: Point) -> f64 {
+        let way = Segment::new(from, to);
+        self.barriers.iter().map(|barrier| way.gap(barrier)).fold(f64::INFINITY, f64::min) - self.radius_m
+    }
+
+    /// The same path with fewer points, as far as that leads no nearer to anything than the path itself, or than `room`.
+    fn thinned(&self, points: &[Point], room: f64) -> Vec<Point> {
+        let legs: Vec<f64> = points.windows(2).map(|leg| self.gap(leg[0], leg[1])).collect();
+        let mut kept: Vec<Point> = points.first().copied().into_iter().collect();
+        let mut at = 0;
+        while at + 1 < points.len() {
+            let (mut next, mut least) = (at + 1, legs[at]);
+            for far in at + 2..points.len() {
+                least = least.min(legs[far - 1]);
+                if self.gap(points[at], points[far]) < room.min(least) - ROUNDING_M {
+                    break;
+                }
+                next = far;
+            }
+            kept.push(points[next]);
+            at = next;
+        }
+        kept
+    }
+
+    /// Moves a point of a path away from what is nearest to it until `room` is free there, as far as the legs beside it come
+    /// no nearer to anything by that.
+    fn move_away(&self, points: &mut [Point], place: usize, room: f64) {
+        let (before, after) = (points[place - 1], points[place + 1]);
+        let along = |at: Point| self.gap(before, at).min(self.gap(at, after));
+        for _ in 0..MOVES {
+            let at = points[place];
+            let Some(moved) = self.away(at, room).filter(|moved| along(*moved) > along(at)) else { return };
+            points[place] = moved;
+        }
+    }
+
+    /// A point so far away from what is nearest to a point that `room` is free; `None` where it is.
+    fn away(&self, at: Point, room: f64) -> Option<Point> {
+        let feet = self.barriers.iter().map(|barrier| barrier.nearest_to(at));
+        let foot = feet.min_by(|one, other| at.distance(*one).total_cmp(&at.distance(*other)))?;
+        let far = at.distance(foot);
+        let lacks = self.radius_m + room - far;
+        (lacks > ROUNDING_M && far > 0.0).then(|| at + (at - foot) * (lacks / far))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::floor_plan::{Disc, Network};
+
+    fn line(x0: f64, y0: f64, x1: f64, y1: f64) -> Segment {
+        Segment::new(Point::new(x0, y0), Point::new(x1, y1))
+    }
+
+    fn building(radius: f64, overhead: Vec<Segment>) -> Building {
+        let walls = vec![line(0.0, 0.0, 10.0, 0.0), line(0.0, 3.0, 10.0, 3.0)];
+        Building { overhead, ..Building::of_walls(Network::none(Disc { radius, margin: 0.0 }), walls) }
+    }
+
+    /// A corridor with a pipe across it from 4 to 5: on the knees beneath it.
+    fn beneath_a_pipe(y: f64) -> Vec<Stretch> {
+        let pipe = vec![line(4.0, 0.0, 4.0, 3.0), line(5.0, 0.0, 5.0, 3.0)];
+        let shapes = [building(0.3, pipe), building(0.4, Vec::new())];
+        let at = |x: f64| Point::new(x, y);
+        let stretch = |shape, from: f64, to: f64| Stretch { shape, points: vec![at(from), at(to)] };
+        let way = vec![stretch(0, 1.0, 3.7), stretch(1, 3.7, 5.3), stretch(0, 5.3, 9.0)];
+        with_room(way, &shapes, &Settings::default())
+    }
+
+    #[test]
+    fn the_robot_goes_down_before_a_pipe_and_gets_up_behind_it_with_room_and_beside_a_wall_farther_from_that()
+    {
+        for (y, off_wall) in [(1.5, 1.1), (0.4, 0.15)] {
+            let way = beneath_a_pipe(y);
+            let room = Settings::default().change_room_m;
+            for change in [way[1].points[0], way[1].points[way[1].points.len() - 1]] {
+                let off_pipe = (4.0 - change.x).max(change.x - 5.0) - 0.3;
+                assert!((room - 1e-9..room + 0.2).contains(&off_pipe), "{change:?}");
+                assert!(change.y - 0.4 >= off_wall - 1e-9, "{change:?}");
+            }
+            let joins = |pair: &[Stretch]| pair[0].points.last() == pair[1].points.first();
+            assert!(way.windows(2).all(joins), "{way:?}");
+        }
+    }
+
+    #[test]
+    fn a_bend_keeps_room_about_a_corner() {
+        let corner = line(5.0, 0.0, 5.0, 1.0);
+        let building = Building { overhead: vec![corner], ..building(0.3, Vec::new()) };
+        let points = vec![Point::new(2.0, 0.5), Point::new(5.0, 1.3), Point::new(8.0, 0.5)];
+        let way = with_room(vec![Stretch { shape: 0, points }], &[building], &Settings::default());
+        assert!(way[0].points[1].distance(Point::new(5.0, 1.4)) < 1e-9, "{way:?}");
+    }
+}
