@@ -91,6 +91,7 @@ pub(crate) const STEPS: &[Step] = &[
     Step::of_all(&[include_str!("../sql/v16/10-one-way.sql")]),
     Step::of_all(&[include_str!("../sql/v17/10-laid-places.sql")]),
     Step::of_all(&[include_str!("../sql/v18/10-no-outline.sql")]),
+    Step { all: &[], worlds: &[include_str!("../sql/v19/10-lost.sql")] },
 ];
 
 /// The newest schema version.

@@ -26,7 +26,7 @@ pub struct Mission {
     pub goal: [f64; 2],
     /// Obstacles that were not known.
     pub obstacles: i64,
-    /// `arrived`, `no_way` or `gave_up`.
+    /// `arrived`, `no_way`, `lost` or `gave_up`.
     pub ending: String,
     /// Metres that the robot went.
     pub length: f64,

@@ -1,5 +1,6 @@
 //! Seeded missions over floor plans with obstacles that the robot does not know, and a table of how they went:
 //! `cargo run --release -p adit-planners --example missions -- 60 plan.json...`; `film plan.json NUMBER` writes one as SVG.
+//! A plan is a floor plan (`.json`) or a map as sites have it (`.toml`, `.yaml`).
 #![allow(clippy::print_stdout, clippy::print_stderr)] // an example shows what it found
 
 #[path = "../tests/navigation/table.rs"]
@@ -13,6 +14,7 @@ use adit_planners::floor_plan::{Disc, FloorPlan, Network, read_floor_plan};
 use adit_planners::navigation::{
     Building, Ending, Happening, Mission, Outcome, Outfit, Possible, ROOM_M, draw,
 };
+use adit_planners::read::{MapErrors, MapSettings, read_world};
 use rayon::prelude::*;
 
 struct Case {
@@ -41,8 +43,19 @@ fn numbers(told: &str) -> Range<u64> {
     from.parse().unwrap_or(0)..to.parse().unwrap_or(60)
 }
 
+/// How high the robot is: lower bridges of a map are solid, metres.
+const HEIGHT_M: f64 = 1.0;
+
+fn read(path: &Path) -> Result<FloorPlan, MapErrors> {
+    if path.extension().is_some_and(|extension| extension == "json") {
+        return read_floor_plan(path);
+    }
+    let (world, _) = read_world(path, &MapSettings::default())?;
+    FloorPlan::of_world(&world, Some(HEIGHT_M))
+}
+
 fn load(path: &str) -> (FloorPlan, Building, Outfit) {
-    let plan = read_floor_plan(Path::new(path)).unwrap_or_else(|errors| panic!("{errors}"));
+    let plan = read(Path::new(path)).unwrap_or_else(|errors| panic!("{errors}"));
     let outfit = Outfit::default();
     let disc = Disc { radius: outfit.robot.radius_m, margin: ROOM_M };
     let network = Network::new(&plan, disc).unwrap_or_else(|errors| panic!("{errors}"));
@@ -125,6 +138,19 @@ fn table_of(path: &str, numbers: Range<u64>) {
         number(&|case| case.possible.is_for_radius && !case.possible.is_with_room && arrived(case)),
         cases.iter().map(|case| case.outcome.touches).sum::<usize>(),
         cases.iter().map(|case| case.outcome.overlap_m).fold(f64::NEG_INFINITY, f64::max),
+    );
+    let wrong = |case: &Case| match case.outcome.ending {
+        Ending::Arrived => !case.possible.is_for_radius || case.outcome.miss_m > outfit.robot.radius_m,
+        Ending::NoWay => case.possible.is_with_room,
+        _ => false,
+    };
+    println!(
+        "  arrived {}, no way {}, lost {}, out of patience {}; wrong claims {}",
+        number(&arrived),
+        number(&no_way),
+        number(&|case| case.outcome.ending == Ending::Lost),
+        number(&|case| case.outcome.ending == Ending::OutOfPatience),
+        number(&wrong),
     );
     let mut touched: Vec<(usize, u64, bool)> =
         cases.iter().map(|case| (case.outcome.touches, case.number, case.has_movers)).collect();

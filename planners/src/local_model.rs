@@ -43,6 +43,7 @@ mod matching;
 mod model_segment;
 mod objects;
 mod reinforce;
+mod relocate;
 mod sensor_model;
 mod sequences;
 mod settings;
@@ -53,6 +54,7 @@ pub use estimate::Estimate;
 pub use facts::{SegmentFacts, SegmentId, Source, Transition};
 pub use model_segment::ModelSegment;
 pub use objects::{Object, ObjectId};
+pub use relocate::{Candidate, KnownWalls, Recognition, Scan};
 pub use settings::Settings;
 pub use update::Update;
 

@@ -165,6 +165,17 @@ impl Simulator {
         in_shape(self.shape).max(in_shape(becoming))
     }
 
+    /// Takes the robot elsewhere, of which its wheels count nothing, and stops it.
+    pub fn put(&mut self, pose: Pose) -> Result<(), SimulationError> {
+        let before = std::mem::replace(&mut self.pose, pose);
+        let free = self.start_is_free();
+        match free {
+            Ok(()) => self.task = Task::Rest,
+            Err(_) => self.pose = before,
+        }
+        free
+    }
+
     /// Where the wheels' count puts the robot, from the pose 0, 0, 0 at the beginning.
     pub fn odometry(&self) -> Pose {
         self.odometry

@@ -162,7 +162,11 @@ pub fn drive(
             number(heading)
         ));
         if let Some((number, ending)) = in_vain {
-            let how = if ending == "no_way" { "there is no way" } else { "the robot gave up" };
+            let how = match ending {
+                "no_way" => "there is no way",
+                "lost" => "the robot does not know where it is",
+                _ => "the robot gave up",
+            };
             line(&format!("{name}:{number}: {how}; the orders after it were not followed"));
         }
     }

@@ -289,10 +289,11 @@ fn summary(rows: &[Row]) {
     let count = |ending| rows.iter().filter(|row| row.ending == ending).count();
     let touches: usize = rows.iter().map(|row| row.touches).sum();
     line(&format!(
-        "{}: {} arrived, {} found no way, {} gave up; {} wrong, {} not judged, {} collided, {} touch{}",
+        "{}: {} arrived, {} found no way, {} lost, {} gave up; {} wrong, {} not judged, {} collided, {} touch{}",
         counted(rows.len(), "mission"),
         count("arrived"),
         count("no_way"),
+        count("lost"),
         count("gave_up"),
         rows.iter().filter(|row| row.right == Some(false)).count(),
         rows.iter().filter(|row| row.right.is_none()).count(),

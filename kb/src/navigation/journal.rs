@@ -85,6 +85,11 @@ fn told(what: &Happening, shapes: &[String]) -> Told {
         }
         Happening::Forbidden { doorways } => ("doorways closed", None, Some(json!({"doorways": doorways}))),
         Happening::Shape(shape) => ("shape", None, Some(json!({"state": shapes.get(*shape)}))),
+        Happening::Located { poses, is_anywhere } => {
+            let poses: Vec<[f64; 3]> = poses.iter().map(numbers).collect();
+            ("located", None, Some(json!({"poses": poses, "anywhere": is_anywhere})))
+        }
+        Happening::Sought(at) => ("sought", None, Some(json!({"at": [at.x, at.y]}))),
         Happening::Retried => ("begun anew", None, None),
         Happening::Reached(at) => ("reached", None, Some(json!({"at": [at.x, at.y]}))),
         Happening::Ended(ending) => {

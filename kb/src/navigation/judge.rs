@@ -17,7 +17,7 @@ use crate::plan::course::Asked;
 use crate::plan::{Said, Spoke, said};
 
 /// What rules are told of a situation.
-const SITUATIONS: [Property<StateFacts>; 36] = [
+const SITUATIONS: [Property<StateFacts>; 53] = [
     ("mode", Text(|of| word_for(&MODES, &of.mode))),
     ("state", Text(|of| word_for(&STATES, &of.state))),
     ("has_goal", Truth(|of| of.has_goal)),
@@ -43,6 +43,17 @@ const SITUATIONS: [Property<StateFacts>; 36] = [
     ("has_way", Truth(|of| of.has_way)),
     ("is_shut", Truth(|of| of.is_shut)),
     ("retries", Number(|of| of.retries.into())),
+    ("sigma", Number(|of| of.sigma_m)),
+    ("sigma_heading", Number(|of| of.sigma_heading)),
+    ("has_walls", Truth(|of| of.has_walls)),
+    ("unexplained", Number(|of| of.unexplained)),
+    ("contradicted", Number(|of| of.contradicted.into())),
+    ("is_matched", Truth(|of| of.is_matched)),
+    ("is_searched", Truth(|of| of.is_searched)),
+    ("searches", Number(|of| of.searches.into())),
+    ("is_aside", Truth(|of| of.is_aside)),
+    ("seeks", Number(|of| of.seeks.into())),
+    ("is_last", Truth(|of| of.is_last)),
     ("time", Number(|of| of.time_s)),
     ("goal_tolerance", Number(|of| of.settings.goal_tolerance_m)),
     ("turning_resolution", Number(|of| of.settings.turning_resolution)),
@@ -54,6 +65,12 @@ const SITUATIONS: [Property<StateFacts>; 36] = [
     ("most_retries", Number(|of| of.settings.most_retries.into())),
     ("most_back_offs", Number(|of| of.settings.most_back_offs.into())),
     ("no_way_after", Number(|of| of.settings.no_way_after_s)),
+    ("sure", Number(|of| of.settings.sure_m)),
+    ("sure_heading", Number(|of| of.settings.sure_heading)),
+    ("most_unexplained", Number(|of| of.settings.most_unexplained)),
+    ("most_contradicted", Number(|of| of.settings.most_contradicted.into())),
+    ("most_searches", Number(|of| of.settings.most_searches.into())),
+    ("most_seeks", Number(|of| of.settings.most_seeks.into())),
 ];
 
 /// What rules are told of a segment of the local model.
@@ -222,14 +239,19 @@ const STATES: [(&str, State); 6] = [
     ("wait", State::Wait),
     ("blocked", State::Blocked),
 ];
-const ACTIONS: [(&str, Action); 7] = [
+const ACTIONS: [(&str, Action); 12] = [
     ("none", Action::None),
     ("back off", Action::BackOff),
     ("left", Action::Left),
     ("right", Action::Right),
     ("close", Action::Close),
     ("retry", Action::Retry),
+    ("match", Action::Match),
+    ("search", Action::Search),
+    ("seek", Action::Seek),
+    ("resume", Action::Resume),
     ("no way", Action::NoWay),
+    ("lost", Action::Lost),
 ];
 const MODES: [(&str, Mode); 4] = [
     ("automatic", Mode::Automatic),

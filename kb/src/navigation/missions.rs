@@ -26,7 +26,7 @@ pub struct Row {
     pub goal: [f64; 2],
     /// How many obstacles are not known to the robot.
     pub obstacles: usize,
-    /// `arrived`, `no_way` or `gave_up`.
+    /// `arrived`, `no_way`, `lost` or `gave_up`.
     pub ending: &'static str,
     /// Whether a disc of the robot's radius can get there with the obstacles at rest.
     pub possible: Option<bool>,
@@ -224,6 +224,7 @@ pub const fn ending(ending: Ending) -> &'static str {
     match ending {
         Ending::Arrived => "arrived",
         Ending::NoWay => "no_way",
+        Ending::Lost => "lost",
         Ending::OutOfPatience => "gave_up",
     }
 }
@@ -233,6 +234,6 @@ fn is_right(outcome: &Outcome, possible: &Possible, radius: f64) -> bool {
     match outcome.ending {
         Ending::Arrived => possible.is_for_radius && outcome.miss_m <= radius,
         Ending::NoWay => !possible.is_with_room,
-        Ending::OutOfPatience => false,
+        Ending::Lost | Ending::OutOfPatience => false,
     }
 }

@@ -359,7 +359,7 @@ impl Missions<'_> {
             right: Some(match routed.ending {
                 Ending::Arrived => judged.is_possible && routed.miss_m <= radius,
                 Ending::NoWay => !judged.is_with_room,
-                Ending::OutOfPatience => false,
+                Ending::Lost | Ending::OutOfPatience => false,
             }),
             length: routed.metres.iter().sum(),
             optimum: judged.metres,

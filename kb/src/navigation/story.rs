@@ -50,21 +50,36 @@ fn sentence(event: &str, detail: &Value) -> Option<String> {
         "contact" => Some(format!("it touched something {}", side(detail["bearing"].as_f64()?))),
         "detour" => Some(format!("something stood in its way; it went around it, {} m", metres("length")?)),
         "way closed" => {
-            let at = detail["at"].as_array()?;
-            let at = format!("({:.2}, {:.2})", at.first()?.as_f64()?, at.get(1)?.as_f64()?);
-            let place = match (detail["doorway"].as_u64(), detail["region"].as_u64()) {
+            let at = place(&detail["at"])?;
+            let what = match (detail["doorway"].as_u64(), detail["region"].as_u64()) {
                 (Some(doorway), _) => format!("doorway {doorway} at {at}"),
                 (None, Some(region)) => format!("region {region} at {at}"),
                 (None, None) => format!("its way at {at}"),
             };
-            Some(format!("it found {place} blocked, and looked for another way"))
+            Some(format!("it found {what} blocked, and looked for another way"))
         }
         "planned" if detail["off_network"] == true => {
             Some("the doorways as planned led nowhere; it went on through what was free".to_owned())
         }
+        "located" if detail["anywhere"] == true => {
+            let poses = detail["poses"].as_array()?;
+            Some(match &poses[..] {
+                [only] => format!("it was not where it thought, and found itself at {}", place(only)?),
+                all => format!("it was not where it thought, and could be at {} places", all.len()),
+            })
+        }
+        "sought" => {
+            Some(format!("unsure where it was, it set out to {}, where walls tell", place(&detail["at"])?))
+        }
         "begun anew" => Some("it forgot what it had met, and looked again".to_owned()),
         _ => None,
     }
+}
+
+/// A place of a list of numbers that begins with its coordinates.
+fn place(at: &Value) -> Option<String> {
+    let at = at.as_array()?;
+    Some(format!("({:.2}, {:.2})", at.first()?.as_f64()?, at.get(1)?.as_f64()?))
 }
 
 /// Where a bearing points to, degrees counterclockwise from ahead.

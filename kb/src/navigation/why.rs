@@ -23,7 +23,7 @@ use crate::words::suggest::did_you_mean;
 pub struct Answer {
     pub world: String,
     pub mission: i64,
-    /// How it ended: `arrived`, `no_way` or `gave_up`.
+    /// How it ended: `arrived`, `no_way`, `lost` or `gave_up`.
     pub ending: String,
     /// Where the mission led from and to, metres.
     pub ends: [[f64; 2]; 2],

@@ -1,5 +1,6 @@
 //! A segment of the model with what is kept of it.
 
+use super::Settings;
 use super::facts::{SegmentFacts, SegmentId, Source, Transition};
 use super::objects::ObjectId;
 use crate::geometry::{Point, Segment};
@@ -53,6 +54,20 @@ impl ModelSegment {
             is_learning,
             sigma_m: self.sigma_m,
         }
+    }
+
+    /// Whether it is the robot's own find and no more: while a building is learned, such surfaces are what it will be made of.
+    pub(super) fn is_own(&self, settings: &Settings) -> bool {
+        !self.is_anchored && !settings.is_learning
+    }
+
+    /// Standard deviations across it and of its angle as seen from a robot that was there when it was found: what the pose was
+    /// unsure by then is in both.
+    pub(super) fn relative_sigmas(&self, settings: &Settings) -> [f64; 2] {
+        if !self.is_own(settings) {
+            return [self.sigma_m, self.sigma_angle];
+        }
+        [self.sigma_m.min(settings.own_sigma_m), self.sigma_angle.min(settings.own_sigma_angle)]
     }
 
     /// Becomes what the state table says.

@@ -11,6 +11,8 @@ pub struct Settings {
     pub range_noise_m: f64,
     /// Standard deviation of the distance by the wheels' count, as a share of it.
     pub distance_noise: f64,
+    /// Errors of the distance are alike over such a stretch: what a robot goes at one command, metres.
+    pub distance_stretch_m: f64,
     /// Standard deviation of the heading by the wheels' count, radians after one metre; it grows with the root.
     pub heading_noise: f64,
     /// Heading that the wheels' count is thought to gain, radians a metre. Where it is not known, 0; then
@@ -28,10 +30,17 @@ pub struct Settings {
     pub shortest_m: f64,
     /// Ends that are no farther apart are joined to a sequence.
     pub join_m: f64,
-    /// Angle up to which a segment of a scan may lie on one of the model, whatever the standard deviations.
+    /// Angle up to which a segment of a scan may lie on one that scans move, whatever the standard deviations.
     pub match_angle: f64,
-    /// Distance up to which a segment of a scan may lie on one of the model, whatever the standard deviations.
+    /// Distance up to which a segment of a scan may lie on one that scans move, whatever the standard deviations.
     pub match_offset_m: f64,
+    /// With a larger standard deviation of the position no segment of a scan is taken for one that stays where it is: which
+    /// one it is cannot be told segment by segment, metres.
+    pub match_sigma_m: f64,
+    /// The same of the heading.
+    pub match_sigma_heading: f64,
+    /// Corrections of the position that are larger must not explain fewer beams than are explained without them, metres.
+    pub certain_step_m: f64,
     /// Share of the shorter one that has to lie beside the other.
     pub match_overlap: f64,
     /// Differences beyond so many standard deviations are no match, and correct nothing.
@@ -49,6 +58,10 @@ pub struct Settings {
     pub recalled_sigma_m: f64,
     /// Standard deviation of the angle of a segment of the global model.
     pub recalled_sigma_angle: f64,
+    /// Standard deviation across a segment that the robot has found, as seen from where it has found it, at most.
+    pub own_sigma_m: f64,
+    /// The same of its angle.
+    pub own_sigma_angle: f64,
     /// The place of the robot is never thought to be surer than this standard deviation: errors of the model do not
     /// average out however often it is seen.
     pub least_sigma_m: f64,
@@ -81,6 +94,7 @@ impl Default for Settings {
             range_noise: 0.01,
             range_noise_m: 0.005,
             distance_noise: 0.02,
+            distance_stretch_m: 3.0,
             heading_noise: 1.0_f64.to_radians(),
             heading_bias: 0.0,
             largest_gap_m: 0.6,
@@ -91,6 +105,9 @@ impl Default for Settings {
             join_m: 0.2,
             match_angle: 12.0_f64.to_radians(),
             match_offset_m: 0.3,
+            match_sigma_m: 1.0,
+            match_sigma_heading: 20.0_f64.to_radians(),
+            certain_step_m: 0.1,
             match_overlap: 0.5,
             match_sigmas: 4.0,
             visible_beams: 2,
@@ -99,6 +116,8 @@ impl Default for Settings {
             hidden_scans: 8,
             recalled_sigma_m: 0.01,
             recalled_sigma_angle: 0.2_f64.to_radians(),
+            own_sigma_m: 0.05,
+            own_sigma_angle: 2.0_f64.to_radians(),
             least_sigma_m: 0.005,
             least_sigma_heading: 0.1_f64.to_radians(),
             recall_m: 12.0,

@@ -52,11 +52,18 @@ impl LocalModel {
         let groups = sensor_model::groups(&beams, &self.settings);
         let seen = sensor_model::build(&groups, &beams, &self.settings);
         let near = self.near();
-        let mut observations = self.correct_by_matches(&seen, &near);
         let shift = |beams: &[Beam], to: &Pose| -> Vec<Beam> {
             let shift = Shift::new(&before.pose, to);
             beams.iter().map(|beam| beam.moved(&shift)).collect()
         };
+        let mut observations = self.correct_by_matches(&seen, &near);
+        let step_m = before.pose.at.distance(self.estimate.pose.at);
+        if step_m > self.settings.certain_step_m {
+            let after = shift(&beams, &self.estimate.pose);
+            if self.explained(&after, &near) < self.explained(&beams, &near) {
+                (self.estimate, observations) = (before, 0);
+            }
+        }
         let placed = shift(&beams, &self.estimate.pose);
         let (mut looks, firsts, mut is_explained) = self.look(&placed, &near);
         observations += self.correct_by_readings(&placed, &firsts, &seen, &is_explained);

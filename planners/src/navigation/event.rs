@@ -67,6 +67,15 @@ pub enum Happening {
     Shape(usize),
     /// What was seen of obstacles was forgotten.
     Retried,
+    /// It was looked for where the last whole scan may have been taken.
+    Located {
+        /// All that are possible; the first one is taken.
+        poses: Vec<Pose>,
+        /// Whether it was looked for over the whole building.
+        is_anywhere: bool,
+    },
+    /// The robot sets out to where known walls tell where it is.
+    Sought(Point),
     /// A goal point on the path was reached.
     Reached(Point),
     Ended(Ending),
@@ -76,6 +85,8 @@ pub enum Happening {
 pub enum Ending {
     Arrived,
     NoWay,
+    /// The robot does not know where it is.
+    Lost,
     /// It took longer than [`Settings::patience_s`].
     OutOfPatience,
 }

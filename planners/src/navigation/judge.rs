@@ -50,7 +50,17 @@ pub enum Action {
     Close,
     /// To forget what was seen of obstacles, and to begin anew from here.
     Retry,
+    /// To find out where within what the estimate allows the last whole scan was taken.
+    Match,
+    /// To find that out over the whole building, whatever the estimate is.
+    Search,
+    /// To go first where known walls tell where the robot is.
+    Seek,
+    /// To go on to the goal after that.
+    Resume,
     NoWay,
+    /// To give up, not knowing where the robot is.
+    Lost,
 }
 
 /// What the next state depends on.
@@ -103,6 +113,28 @@ pub struct StateFacts {
     pub is_shut: bool,
     /// How often everything was begun anew.
     pub retries: u32,
+    /// Standard deviation of the estimated position in the direction in which it is least certain, metres.
+    pub sigma_m: f64,
+    /// Standard deviation of the estimated heading, radians.
+    pub sigma_heading: f64,
+    /// Whether walls are known by which the robot could tell where it is.
+    pub has_walls: bool,
+    /// Share of the beams of the last whole scan that ended before the known walls, or where none is.
+    pub unexplained: f64,
+    /// The most of those beams side by side that ran through known walls.
+    pub contradicted: u32,
+    /// Whether it was looked for where that scan may have been taken, within what the estimate allows.
+    pub is_matched: bool,
+    /// The same over the whole building.
+    pub is_searched: bool,
+    /// How often that was looked for over the whole building since the goal was given.
+    pub searches: u32,
+    /// Whether the robot is on its way to where known walls tell where it is.
+    pub is_aside: bool,
+    /// How often it set out to such a place since the goal was given.
+    pub seeks: u32,
+    /// Whether the goal point is the end of the path.
+    pub is_last: bool,
     /// Seconds since the goal was given.
     pub time_s: f64,
     pub settings: Settings,

@@ -187,7 +187,11 @@ pub(super) fn state_caption(decision: StateDecision) -> String {
         Action::Right => format!("{state}, to the right"),
         Action::Close => format!("{state}, another way"),
         Action::Retry => format!("{state}, begins anew"),
+        Action::Match | Action::Search => format!("{state}, where is it"),
+        Action::Seek => format!("{state}, goes where it can tell"),
+        Action::Resume => format!("{state}, goes on"),
         Action::NoWay => format!("{state}, no way"),
+        Action::Lost => format!("{state}, lost"),
     }
 }
 
@@ -205,6 +209,7 @@ pub(super) fn film_event(film: &mut Film, body: &Simulator, navigator: &Navigato
         Happening::Shape(_) => "another shape".to_owned(),
         Happening::Ended(Ending::Arrived) => "arrived".to_owned(),
         Happening::Ended(Ending::NoWay) => "no way".to_owned(),
+        Happening::Ended(Ending::Lost) => "lost".to_owned(),
         Happening::Ended(Ending::OutOfPatience) => "given up".to_owned(),
         _ => return,
     };

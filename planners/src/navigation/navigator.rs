@@ -1,6 +1,7 @@
 //! The navigator: it drives a body from state to state as the judge decides.
 
 mod acting;
+mod locating;
 mod planning;
 mod route;
 mod sensing;
@@ -20,6 +21,7 @@ use crate::body::{Body, Command, Contact, Reading, Sensed};
 use crate::geometry::{Point, Segment};
 use crate::local_model::{Estimate, LocalModel};
 use crate::pose::Pose;
+use locating::Whereabouts;
 
 /// A touch is ahead of a course if the cosine of its bearing is larger.
 const SIDEWAYS: f64 = 0.05;
@@ -44,6 +46,7 @@ pub struct Navigator<'b> {
     settings: Settings,
     model: LocalModel,
     memory: Memory,
+    whereabouts: Whereabouts,
     blocked: Blocked,
     /// Doorways that the judge closes whatever is seen, by index.
     forbidden: Vec<usize>,
@@ -160,6 +163,7 @@ impl<'b> Navigator<'b> {
             settings,
             model: LocalModel::new(model, start),
             memory: Memory::default(),
+            whereabouts: Whereabouts::new(building),
             blocked: Blocked::new(&building.network),
             forbidden: Vec::new(),
             barriers: [&building.walls[..], &building.overhead].concat(),
@@ -261,6 +265,7 @@ impl<'b> Navigator<'b> {
     pub fn go(&mut self, goal: Point, judge: &mut impl Judge) {
         (self.mode, self.goal, self.retries, self.scans) = (Mode::Automatic, Some(goal), 0, 0);
         (self.begun_s, self.squeezes) = (self.time_s(), 0);
+        self.whereabouts.begin();
         self.blocked = Blocked::new(&self.building.network);
         self.ask_for_doorways(judge);
         self.gather();

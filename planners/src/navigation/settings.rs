@@ -43,6 +43,12 @@ settings! {
             give_way_m: f64 = 1.5, "give_way", "m", NotNegative, "Before it begins anew the robot goes back on its own track, up to so far, to give way.";
             no_way_after_s: f64 = 180.0, "no_way_after", "s", NotNegative, "There may be a way again for so long: things that move come to rest.";
             most_back_offs: u32 = 3, "most_back_offs", "", Times, "Times that the robot withdraws from touches before it looks around.";
+            sure_m: f64 = 0.06, "sure", "m", Positive, "The position is sure while its standard deviation is no larger.";
+            sure_heading: degrees = 5.0, "sure_heading", "°", Positive, "The heading is sure while its standard deviation is no larger.";
+            most_unexplained: f64 = 0.75, "most_unexplained", "", Positive, "Where a larger share of a scan's beams ends before the known walls, the robot is elsewhere.";
+            most_contradicted: u32 = 5, "most_contradicted", "", Times, "Where more beams side by side run through known walls, the robot is elsewhere.";
+            most_searches: u32 = 6, "most_searches", "", Times, "So many times on a mission the robot looks for itself over the whole building before it is lost.";
+            most_seeks: u32 = 3, "most_seeks", "", Times, "So many times on a mission it goes where known walls tell where it is.";
             patience_s: f64 = 3600.0, "patience", "s", Positive, "After so long a mission is given up.";
         }
     }

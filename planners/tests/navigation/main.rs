@@ -6,3 +6,4 @@ mod missions;
 mod scene;
 mod states;
 mod table;
+mod whereabouts;

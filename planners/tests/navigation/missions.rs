@@ -36,7 +36,7 @@ fn what_is_possible_arrives_what_is_not_is_said_and_nothing_is_run_into() {
                     refused += 1;
                     assert!(!possible.is_with_room, "{told}");
                 }
-                Ending::OutOfPatience => panic!("{told}"),
+                Ending::Lost | Ending::OutOfPatience => panic!("{told}"),
             }
         }
     }

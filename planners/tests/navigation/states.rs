@@ -19,7 +19,7 @@ fn a_free_way_is_gone_straight_by_the_states_of_figure_5() {
     use State::{Decide, Hold, Move, Turn, Wait};
     let run = run(&mission([1.0, 1.0], [1.0, 4.0], Vec::new()));
     assert!(run.has_arrived(), "{}", run.told());
-    assert_eq!(run.states(), [Decide, Wait, Decide, Turn, Wait, Decide, Move, Hold]);
+    assert_eq!(run.states(), [Decide, Wait, Decide, Turn, Wait, Decide, Move, Wait, Decide, Hold]);
     assert!((run.outcome.path_m - 3.0).abs() < 0.1);
 }
 

@@ -2,6 +2,20 @@
 //!
 //! The first row that holds decides. `reach` is the smaller one of `distance_m` and `look_ahead_m`.
 //!
+//! Astray is: `contradicted` > `most_contradicted` or `unexplained` > `most_unexplained`. Unsure is: `sigma_m` > `sure_m` or
+//! `sigma_heading` > `sure_heading`.
+//!
+//! | doubt   | if                                                     |
+//! |---------|--------------------------------------------------------|
+//! |         | has_walls is false                                     |
+//! | Lost    | astray, searches >= most_searches                      |
+//! | Match   | astray, is_matched is false                            |
+//! | Search  | astray, is_searched is false                           |
+//! | Look    | astray                                                 |
+//! | Match   | unsure, is_matched is false                            |
+//! | Unsure  | unsure                                                 |
+//! |         | otherwise                                              |
+//!
 //! | state   | if                                                     | next    | action   |
 //! |---------|--------------------------------------------------------|---------|----------|
 //! | Hold    | mode is Manual                                         | Hold    |          |
@@ -12,7 +26,14 @@
 //! | Hold    | otherwise                                              | Hold    |          |
 //! | Decide  | has_goal is false                                      | Hold    |          |
 //! | Decide  | scans = 0                                              | Wait    |          |
+//! | Decide  | doubt is Lost                                          | Hold    | Lost     |
+//! | Decide  | doubt is Search                                        | Decide  | Search   |
+//! | Decide  | doubt is Look                                          | Wait    |          |
+//! | Decide  | doubt is Match                                         | Decide  | Match    |
+//! | Decide  | is_aside without doubt                                 | Decide  | Resume   |
 //! | Decide  | is_changing                                            | Hold    |          |
+//! | Decide  | Unsure, distance_m <= goal_tolerance_m, seeks < most   | Decide  | Seek     |
+//! | Decide  | Unsure, distance_m <= goal_tolerance_m                 | Hold    | Lost     |
 //! | Decide  | distance_m <= goal_tolerance_m                         | Hold    |          |
 //! | Decide  | is_contact                                             | Blocked |          |
 //! | Decide  | free_m < reach                                         | Blocked |          |
@@ -23,6 +44,7 @@
 //! | Turn    | heading_error > turning_resolution                     | Turn    |          |
 //! | Turn    | otherwise                                              | Wait    |          |
 //! | Move    | is_contact                                             | Blocked |          |
+//! | Move    | distance_m <= goal_tolerance_m, is_last and has_walls  | Wait    |          |
 //! | Move    | distance_m <= goal_tolerance_m                         | Hold    |          |
 //! | Move    | is_falling is false                                    | Wait    |          |
 //! | Move    | off_line_m > highway_half_width_m                      | Wait    |          |
@@ -37,8 +59,16 @@
 //! | Blocked | is_scan_complete is false                              | Wait    |          |
 //! | Blocked | mode is Learn                                          | Hold    | NoWay    |
 //! | Blocked | as without a way: mode is Route, closed_here >= most_reports |   |          |
+//! | Blocked | doubt is Lost                                          | Hold    | Lost     |
+//! | Blocked | doubt is Search                                        | Decide  | Search   |
+//! | Blocked | doubt is Look                                          | Wait    |          |
+//! | Blocked | doubt is Match                                         | Decide  | Match    |
+//! | Blocked | has_way is false, is_aside without doubt               | Decide  | Resume   |
 //! | Blocked | has_way is false and retries < most_retries            | Decide  | Retry    |
 //! | Blocked | has_way, is_shut are false, time_s < no_way_after_s    | Decide  | Retry    |
+//! | Blocked | has_way is false, Unsure, seeks < most_seeks           | Decide  | Seek     |
+//! | Blocked | has_way is false, Unsure                               | Hold    | Lost     |
+//! | Blocked | has_way is false, searches > 0                         | Hold    | Lost     |
 //! | Blocked | has_way is false                                       | Hold    | NoWay    |
 //! | Blocked | is_obstacle_moving and waits < most_waits              | Wait    |          |
 //! | Blocked | is_changing, has_room is false                         | Decide  | Close    |
@@ -85,12 +115,40 @@ impl Guide for Table {
     }
 }
 
+/// What is to be done about where the robot is.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Doubt {
+    None,
+    Lost,
+    Search,
+    Look,
+    Match,
+    Unsure,
+}
+
+fn doubt(facts: &StateFacts) -> Doubt {
+    let settings = &facts.settings;
+    let is_astray =
+        facts.contradicted > settings.most_contradicted || facts.unexplained > settings.most_unexplained;
+    match () {
+        () if !facts.has_walls => Doubt::None,
+        () if is_astray && facts.searches >= settings.most_searches => Doubt::Lost,
+        () if is_astray && !facts.is_matched => Doubt::Match,
+        () if is_astray && !facts.is_searched => Doubt::Search,
+        () if is_astray => Doubt::Look,
+        () if facts.sigma_m <= settings.sure_m && facts.sigma_heading <= settings.sure_heading => Doubt::None,
+        () if !facts.is_matched => Doubt::Match,
+        () => Doubt::Unsure,
+    }
+}
+
 #[expect(clippy::match_same_arms, reason = "an arm is a row of the table")]
 fn row(facts: &StateFacts) -> (State, Action) {
     let settings = &facts.settings;
     let reach = facts.distance_m.min(settings.look_ahead_m) - 1e-6;
     let is_there = facts.distance_m <= settings.goal_tolerance_m;
     let is_turned = facts.heading_error <= settings.turning_resolution;
+    let (doubt, may_seek) = (doubt(facts), facts.seeks < settings.most_seeks);
     let state = match facts.state {
         State::Hold if facts.mode == Mode::Manual => State::Hold,
         State::Hold if !facts.has_way => State::Blocked,
@@ -100,7 +158,17 @@ fn row(facts: &StateFacts) -> (State, Action) {
         State::Hold => State::Hold,
         State::Decide if !facts.has_goal => State::Hold,
         State::Decide if facts.scans == 0 => State::Wait,
-        State::Decide if facts.is_changing || is_there => State::Hold,
+        State::Decide if doubt == Doubt::Lost => return (State::Hold, Action::Lost),
+        State::Decide if doubt == Doubt::Search => return (State::Decide, Action::Search),
+        State::Decide if doubt == Doubt::Look => State::Wait,
+        State::Decide if doubt == Doubt::Match => return (State::Decide, Action::Match),
+        State::Decide if doubt == Doubt::None && facts.is_aside => return (State::Decide, Action::Resume),
+        State::Decide if facts.is_changing => State::Hold,
+        State::Decide if doubt == Doubt::Unsure && is_there && may_seek => {
+            return (State::Decide, Action::Seek);
+        }
+        State::Decide if doubt == Doubt::Unsure && is_there => return (State::Hold, Action::Lost),
+        State::Decide if is_there => State::Hold,
         State::Decide if facts.is_contact || facts.free_m < reach => State::Blocked,
         State::Decide if !is_turned => State::Turn,
         State::Decide => State::Move,
@@ -108,6 +176,7 @@ fn row(facts: &StateFacts) -> (State, Action) {
         State::Turn if facts.is_busy || !is_turned => State::Turn,
         State::Turn => State::Wait,
         State::Move if facts.is_contact => State::Blocked,
+        State::Move if is_there && facts.is_last && facts.has_walls => State::Wait,
         State::Move if is_there => State::Hold,
         State::Move if !facts.is_falling || facts.off_line_m > settings.highway_half_width_m => State::Wait,
         State::Move if facts.free_m < reach => State::Blocked,
@@ -127,6 +196,7 @@ fn blocked(facts: &StateFacts) -> (State, Action) {
         facts.retries < settings.most_retries || facts.time_s < settings.no_way_after_s && !facts.is_shut;
     let leads_on =
         facts.has_way && !(facts.mode == Mode::Route && facts.closed_here >= settings.most_reports);
+    let (doubt, may_seek) = (doubt(facts), facts.seeks < settings.most_seeks);
     let is_left = facts.left_m.is_some_and(|left| facts.right_m.is_none_or(|right| left <= right));
     match () {
         () if facts.is_busy => (State::Blocked, Action::None),
@@ -135,7 +205,15 @@ fn blocked(facts: &StateFacts) -> (State, Action) {
         }
         () if !facts.is_scan_complete => (State::Wait, Action::None),
         () if facts.mode == Mode::Learn => (State::Hold, Action::NoWay),
+        () if doubt == Doubt::Lost => (State::Hold, Action::Lost),
+        () if doubt == Doubt::Search => (State::Decide, Action::Search),
+        () if doubt == Doubt::Look => (State::Wait, Action::None),
+        () if doubt == Doubt::Match => (State::Decide, Action::Match),
+        () if !leads_on && doubt == Doubt::None && facts.is_aside => (State::Decide, Action::Resume),
         () if !leads_on && is_early => (State::Decide, Action::Retry),
+        () if !leads_on && doubt == Doubt::Unsure && may_seek => (State::Decide, Action::Seek),
+        () if !leads_on && doubt == Doubt::Unsure => (State::Hold, Action::Lost),
+        () if !leads_on && facts.searches > 0 => (State::Hold, Action::Lost),
         () if !leads_on => (State::Hold, Action::NoWay),
         () if facts.is_obstacle_moving && facts.waits < settings.most_waits => (State::Wait, Action::None),
         () if facts.is_changing && !facts.has_room => (State::Decide, Action::Close),

@@ -20,7 +20,8 @@ pub(super) type First = Option<(usize, Crossing)>;
 impl LocalModel {
     /// The places of segments within hearing.
     pub(super) fn within_hearing(&self) -> impl Iterator<Item = usize> {
-        let reach = self.settings.sonar_range_m + self.settings.match_offset_m;
+        let unsure_m = self.settings.match_sigmas * self.estimate.sigma_m();
+        let reach = self.settings.sonar_range_m + self.settings.match_offset_m.max(unsure_m);
         let at = self.estimate.pose.at;
         let is_near = move |segment: &ModelSegment| segment.line.bounds().grown(reach).contains(at);
         self.segments.iter().enumerate().filter(move |(_, segment)| is_near(segment)).map(|(place, _)| place)
@@ -47,6 +48,24 @@ impl LocalModel {
         correction.count
     }
 
+    /// How many beams end where the nearest of the segments is that scans leave where they are.
+    pub(super) fn explained(&self, beams: &[Beam], near: &[Near]) -> usize {
+        let fan = Fan::new(beams);
+        let (mut firsts, mut crossings) = (vec![None::<Crossing>; beams.len()], Vec::new());
+        for wall in near.iter().filter(|wall| self.segments[wall.model].is_anchored) {
+            fan.crossings(&self.segments[wall.model], wall.length_m, beams, &self.settings, &mut crossings);
+            for crossing in &crossings {
+                let first = &mut firsts[crossing.beam];
+                if first.is_none_or(|other| crossing.range_m < other.range_m) {
+                    *first = Some(*crossing);
+                }
+            }
+        }
+        let variance = self.settings.recalled_sigma_m.powi(2);
+        let agrees = |first: &Crossing| first.agrees(&beams[first.beam], variance, &self.settings);
+        firsts.iter().flatten().filter(|first| agrees(first)).count()
+    }
+
     /// What beams say of the segments within hearing, what each beam meets first, and whether the model explains it.
     pub(super) fn look(&self, beams: &[Beam], near: &[Near]) -> (Vec<Look>, Vec<First>, Vec<bool>) {
         let fan = Fan::new(beams);
@@ -55,14 +74,15 @@ impl LocalModel {
         let mut is_explained = vec![false; beams.len()];
         let mut crossings = Vec::new();
         let (at, least_sine) = (self.estimate.pose.at, self.settings.grazing_angle.sin());
-        let (place, heading) = (self.estimate.sigma_m().powi(2), self.estimate.sigma_heading().powi(2));
         for wall in near {
             let segment = &self.segments[wall.model];
             fan.crossings(segment, wall.length_m, beams, &self.settings, &mut crossings);
             if crossings.is_empty() {
                 continue;
             }
-            let variance = place + segment.sigma_m.powi(2) + heading * segment.line.squared_distance(at);
+            let [place, heading] = self.estimate.variances_from(segment);
+            let [sigma_m, _] = segment.relative_sigmas(&self.settings);
+            let variance = place + sigma_m.powi(2) + heading * segment.line.squared_distance(at);
             for crossing in &crossings {
                 let first = &mut firsts[crossing.beam];
                 if first.is_none_or(|(_, other)| crossing.range_m < other.range_m) {
@@ -90,13 +110,15 @@ impl LocalModel {
             is_used[echo.beam] = true;
         }
         let mut correction = Correction::new();
+        let is_vague = self.estimate.is_vague(&self.settings);
         let (sine, margin) = (self.settings.critical_angle.sin(), self.settings.critical_margin_m);
         for (i, first) in firsts.iter().enumerate() {
             let Some((model, crossing)) = first else { continue };
             let segment = &self.segments[*model];
             let is_inside = crossing.place_m >= margin && crossing.place_m <= segment.line.length() - margin;
             let is_critical = crossing.sine >= sine && is_inside && segment.counts_for_pose;
-            if !is_used[i] && is_explained[i] && is_critical {
+            let is_told = !(is_vague && segment.is_anchored);
+            if !is_used[i] && is_explained[i] && is_critical && is_told {
                 correction.by_reading(&beams[i], crossing, segment, &self.estimate, &self.settings);
             }
         }

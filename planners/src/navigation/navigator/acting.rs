@@ -22,7 +22,12 @@ impl Navigator<'_> {
             Action::Right => self.take_detour(|detours| (detours.right, detours.left)),
             Action::Close => self.close(judge),
             Action::Retry => self.retry(judge),
+            Action::Match => self.locate(false, judge),
+            Action::Search => self.locate(true, judge),
+            Action::Seek => self.seek(judge),
+            Action::Resume => self.resume(judge),
             Action::NoWay => return Some(Ending::NoWay),
+            Action::Lost => return Some(Ending::Lost),
         }
         let is_entered = decision.state != self.state;
         self.state = decision.state;
@@ -104,7 +109,8 @@ impl Navigator<'_> {
             let reached = self.legs.pop_front()?;
             self.came_from = reached;
             self.tell(Happening::Reached(reached));
-            return (self.legs.is_empty() && !self.goes_on()).then_some(Ending::Arrived);
+            let is_end = self.legs.is_empty() && self.whereabouts.aside.is_none() && !self.goes_on();
+            return is_end.then_some(Ending::Arrived);
         }
         None
     }

@@ -136,8 +136,8 @@ impl Navigator<'_> {
 
     /// Looks for a path to the goal over the network; through free space as it is known where that has none.
     pub(super) fn plan(&mut self, judge: &mut impl Judge, is_off_network: bool) {
-        let Some(goal) = self.goal else { return };
-        if self.mode == Mode::Route {
+        let Some(goal) = self.whereabouts.aside.or(self.goal) else { return };
+        if self.mode == Mode::Route && self.whereabouts.aside.is_none() {
             return self.ask_for_way();
         }
         let ends = [self.pose().at, goal];

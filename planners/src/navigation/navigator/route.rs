@@ -15,6 +15,7 @@ impl Navigator<'_> {
     pub fn go_by_route(&mut self, goal: Point) {
         (self.mode, self.goal, self.retries, self.scans) = (Mode::Route, Some(goal), 0, 0);
         (self.begun_s, self.spot) = (self.time_s(), Spot::default());
+        self.whereabouts.begin();
         self.ask_for_way();
     }
 

@@ -66,6 +66,7 @@ impl Navigator<'_> {
         }
         if self.is_scan_complete() {
             self.scans += 1;
+            self.recognise(&part);
             self.tell(Happening::SetEstimatedPosition(*self.model.estimate()));
         }
     }

@@ -55,6 +55,11 @@ proptest! {
         [detours_here, waits, retries, scans, back_offs] in prop::array::uniform5(0_u32..6),
         closed_here in 0_u32..12,
         time_s in near(600.0),
+        [has_walls, is_matched, is_searched, is_aside, is_last] in prop::array::uniform5(any::<bool>()),
+        [contradicted, searches, seeks] in prop::array::uniform3(0_u32..8),
+        sigma_m in near(0.06),
+        sigma_heading in near(5.0_f64.to_radians()),
+        unexplained in near(0.5),
     ) {
         let facts = StateFacts {
             mode,
@@ -83,6 +88,17 @@ proptest! {
             has_way: g,
             is_shut: h,
             retries,
+            sigma_m,
+            sigma_heading,
+            has_walls,
+            unexplained,
+            contradicted,
+            is_matched,
+            is_searched,
+            searches,
+            is_aside,
+            seeks,
+            is_last,
             settings: Settings::default(),
         };
         let mut judge = judge();
