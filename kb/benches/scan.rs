@@ -48,7 +48,7 @@ fn known(walls: Vec<Segment>) -> Building {
     };
     let plan = FloorPlan::new(drawn).expect("a hall");
     let network = Network::new(&plan, Disc { radius: 0.25, margin: 0.0 }).expect("a network");
-    Building { network, walls }
+    Building::of_walls(network, walls)
 }
 
 /// A body of which all that matters is what it senses next.

@@ -17,6 +17,7 @@ mod lay;
 mod layer;
 mod learn;
 mod lsp;
+mod missions;
 mod new;
 mod output;
 mod pages;
@@ -101,7 +102,7 @@ pub enum Verb {
     Draw(picture::DrawArgs),
     /// Tasks of a robot in a cell, one after the other: it learns from each for the next, and keeps what it learns
     Tasks(tasks::TasksArgs),
-    /// Missions of a simulated robot on a floor plan, with obstacles that it does not know
+    /// Missions of a simulated robot on a floor plan or on the routes of a site, with obstacles that it does not know
     Simulate(args::SimulateArgs),
     /// A scenario of a robot that learns, over many seeds: what each strategy of repair costs (CSV, picture)
     Experiment(experiment::ExperimentArgs),

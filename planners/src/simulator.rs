@@ -42,7 +42,7 @@ use obstacle::Mover;
 
 use crate::body::{Body, Command, Contact, Reading, Sensed};
 use crate::geometry::tolerance::SNAP_M;
-use crate::geometry::{Point, RayGrid, Rect, Segment, polygon};
+use crate::geometry::{Point, RayGrid, Segment, polygon};
 use crate::pose::{Pose, wrapped};
 use crate::random::Random;
 
@@ -219,7 +219,7 @@ impl Simulator {
 
     /// What it may touch besides walls that it can hear and obstacles.
     fn overhead(&self) -> impl Iterator<Item = Segment> + '_ {
-        self.shapes.all[self.shape].overhead.iter().flat_map(Rect::sides)
+        self.shapes.all[self.shape].overhead.iter().flat_map(polygon::sides_of_rect)
     }
 
     fn start_is_free(&self) -> Result<(), SimulationError> {

@@ -41,7 +41,7 @@ pub struct WayArgs {
 #[derive(Args, Debug, Clone)]
 #[allow(clippy::struct_excessive_bools)] // flags of a command line
 pub struct SimulateArgs {
-    /// Folder of a site whose map has walls, or such a map alone: a TOML file with `[floor_plan]`
+    /// Folder of a site whose rooms are cut by state, or whose map has walls; or such a map alone: a TOML file with `[floor_plan]`
     pub site: PathBuf,
     /// Where to start, a place or `x,y`; without START and GOAL missions with obstacles are drawn by chance
     #[arg(allow_hyphen_values = true, requires = "goal")]
@@ -67,9 +67,9 @@ pub struct SimulateArgs {
     /// Keep each mission with its journal in this database
     #[arg(long, value_name = "FILE")]
     pub db: Option<PathBuf>,
-    /// Tell the site which doorways the robot finds blocked (`DOORWAYS.blocked`): rules decide what follows, for this robot and
-    /// all others
-    #[arg(long, conflicts_with_all = ["learn", "learned", "curve", "film"])]
+    /// Tell the site what the robot meets: which doorways it finds blocked (`DOORWAYS.blocked`), where rules decide what follows;
+    /// what stands in its way, where rooms are cut by state, for an hour
+    #[arg(long, conflicts_with_all = ["learn", "learned", "curve"])]
     pub tell: bool,
     /// Keep them in the site's own
     #[arg(long, conflicts_with = "db")]

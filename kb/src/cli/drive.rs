@@ -6,8 +6,8 @@ use adit_planners::navigation::Mission;
 use adit_planners::simulator::Film;
 
 use super::args::{SimulateArgs, heading};
+use super::missions::{filmed, last_mission, show};
 use super::output::{either, remark};
-use super::simulate::{filmed, last_mission, show};
 use crate::error::{Code, Error, Result};
 use crate::fit::Row as Traversal;
 use crate::live::Live;
@@ -28,9 +28,11 @@ pub fn run(args: &SimulateArgs, mut live: Live) -> Result<bool> {
     }
     let ground = Ground::of(&live.fork(), args.robot.as_deref())?;
     let (rules, bases, remarks) = load_over(Kind::Navigation, &live.site().site().folder)?;
-    remarks.iter().for_each(|text| remark(text));
+    for text in &remarks {
+        remark(text);
+    }
     let bases = bases.iter().map(Base::name).collect::<Vec<_>>().join("\n");
-    let (name, folder) = (live.site().site().name.clone(), live.site().database().to_owned());
+    let name = live.site().site().name.clone();
     let mut on = Missions { live: &mut live, ground: &ground, rules: &rules, tells: args.tell };
     let missions = missions(args, &on)?;
     let wanted = filmed(args, &missions)?.is_some();
@@ -61,7 +63,7 @@ pub fn run(args: &SimulateArgs, mut live: Live) -> Result<bool> {
         rows.push(row);
         bar.step();
     }
-    drop((bar, folder));
+    drop(bar);
     if let (Some(path), Some(film)) = (&args.film, film) {
         whole::write(path, film.svg(args.speed).as_bytes())?;
         remark(&format!("{}: mission {}", path.display(), args.mission));

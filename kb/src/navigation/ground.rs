@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use adit_planners::floor_plan::{Disc, FloorPlan, Network};
-use adit_planners::geometry::{Point, Rect, Segment};
+use adit_planners::geometry::{Point, Rect, Segment, polygon};
 use adit_planners::navigation::{Building, Settings, Stretch};
 use adit_planners::simulator::{Shape, Shapes};
 
@@ -98,7 +98,7 @@ impl Ground {
         let radius = size.width / 2.0;
         let low = state.world.bridges.iter().filter(|bridge| size.height >= bridge.height);
         let overhead: Vec<Rect> = low.map(|bridge| bridge.rect).collect();
-        let sides = overhead.iter().flat_map(Rect::sides).collect();
+        let sides = overhead.iter().flat_map(polygon::sides_of_rect).collect();
         let network = Network::none(Disc { radius, margin: 0.0 });
         self.buildings.push(Building { overhead: sides, ..Building::of_walls(network, self.walls.clone()) });
         self.shapes.all.push(Shape {

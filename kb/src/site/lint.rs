@@ -161,8 +161,9 @@ pub fn not_carried_out(
     rules: &RuleBase,
     whose: &str,
     finding: fn(Code, String, Option<String>) -> Finding,
+    is_meant: impl Fn(&str) -> bool,
 ) -> Vec<Finding> {
-    let reacts = rules.rules().iter().filter(|rule| rule.reacts());
+    let reacts = rules.rules().iter().filter(|rule| rule.reacts() && is_meant(rule.file()));
     let found = reacts.map(|rule| {
         let (text, span) = rule.place();
         let message = format!(

@@ -2,10 +2,16 @@
 
 use geo::{ConvexHull, Polygon};
 
-use super::{Point, Segment, orient};
+use super::{Point, Rect, Segment, orient};
 
 pub fn sides(corners: &[Point]) -> impl Iterator<Item = Segment> + Clone + '_ {
     corners.iter().zip(corners.iter().cycle().skip(1)).map(|(&a, &b)| Segment::new(a, b))
+}
+
+/// The sides of a rectangle, counterclockwise.
+pub fn sides_of_rect(rect: &Rect) -> [Segment; 4] {
+    let [a, b, c, d] = rect.corners();
+    [Segment::new(a, b), Segment::new(b, c), Segment::new(c, d), Segment::new(d, a)]
 }
 
 /// As the `geo` crate has it.

@@ -1,6 +1,6 @@
 //! Axis-parallel rectangles, in metres in the map's frame.
 
-use super::{Point, Segment};
+use super::Point;
 
 /// A closed axis-parallel rectangle; `x0 <= x1` and `y0 <= y1`.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
@@ -57,12 +57,6 @@ impl Rect {
     pub fn corners(&self) -> [Point; 4] {
         [(self.x0, self.y0), (self.x1, self.y0), (self.x1, self.y1), (self.x0, self.y1)]
             .map(|(x, y)| Point::new(x, y))
-    }
-
-    /// Counter-clockwise.
-    pub fn sides(&self) -> [Segment; 4] {
-        let [a, b, c, d] = self.corners();
-        [Segment::new(a, b), Segment::new(b, c), Segment::new(c, d), Segment::new(d, a)]
     }
 
     /// Metres from a point outside; below 0 inside, by how far the nearest side is.

@@ -1,4 +1,6 @@
 //! The estimated pose with its covariance.
+//!
+//! Surfaces are placed by the estimate, and how sure it is hangs on which surface it looks at: a circle of these files.
 
 use nalgebra::{Matrix3, RowVector3, Vector3};
 

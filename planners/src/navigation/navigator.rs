@@ -1,4 +1,6 @@
 //! The navigator: it drives a body from state to state as the judge decides.
+//!
+//! What it knows of its whereabouts is a part of it, and is found out by it: this file and `locating` are a circle.
 
 mod acting;
 mod locating;

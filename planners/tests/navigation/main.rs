@@ -3,6 +3,7 @@
 
 mod learn;
 mod missions;
+mod routed;
 mod scene;
 mod states;
 mod table;

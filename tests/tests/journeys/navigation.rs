@@ -7,6 +7,7 @@ mod journeys;
 mod kept;
 mod learning;
 mod maps;
+mod on_rooms;
 mod position;
 mod same_as_table;
 mod told;

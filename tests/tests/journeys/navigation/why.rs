@@ -11,12 +11,12 @@ fn the_last_stop_is_explained_by_the_row_that_decided_and_by_what_kept_the_other
         "mission 1 of flat, ",
         "it ended: arrived",
         "from (1.50, 1.50) to (",
-        ": move -> hold",
-        "because of move, row 2 (line ",
+        ": decide -> hold",
+        "because of decide, row 11 (line ",
         "execution.rhai",
         "goal_tolerance 0.08",
-        "not move, row 1: situation.is_contact is false, not true",
-        "not move, row 7: the first row that matches is 2, not 7",
+        "not decide, row 8: situation.needs_shape is false, not true",
+        "not decide, row 15: the first row that matches is 11, not 15",
     ] {
         assert!(answer.contains(said), "`{said}` is not in:\n{answer}");
     }
@@ -32,7 +32,7 @@ fn a_mission_without_a_way_is_explained_by_what_said_so() {
         assert_eq!(rows[0]["ending"], "no_way", "{rows}");
         let answer = on(&folder, "why", "missions.db", &["1"]).expect_status(0).stdout;
         for said in
-            [": blocked -> hold, no way", "it ended: no way", "because of blocked, row 6", "has_way false"]
+            [": blocked -> hold, no way", "it ended: no way", "because of blocked, row 14", "has_way false"]
         {
             assert!(answer.contains(said), "`{said}` is not in:\n{answer}");
         }
@@ -83,8 +83,8 @@ fn rules_that_were_changed_since_are_said_to_say_something_else() {
     run(&folder, "simulate", &["bed", "desk", "--db", "missions.db"]).expect_status(0);
     folder.edit(
         "rules/execution.rhai",
-        "any,   any,   any,   any,  any,  \"hold\",    \"none\" ],",
-        "any,   any,   any,   any,  any,  \"wait\",    \"none\" ],",
+        "any,  any,  true, any,  any,  any,   any,   \"hold\",    \"none\" ],",
+        "any,  any,  true, any,  any,  any,   any,   \"wait\",    \"none\" ],",
     );
     let answer = on(&folder, "why", "missions.db", &["1"]).expect_status(0).stdout;
     assert!(answer.contains("the rules have changed since: now they say wait"), "{answer}");

@@ -1,0 +1,153 @@
+//! Missions along ways that somebody else finds: shapes are changed where they say so, and closed ways are told.
+
+use std::collections::BTreeMap;
+
+use adit_planners::floor_plan::{Disc, Network};
+use adit_planners::geometry::{Point, Rect, Segment, polygon};
+use adit_planners::navigation::{Building, Drivable, Ending, Met, Mission, Outfit, Routed, Router, Stretch};
+use adit_planners::simulator::{Shape, Shapes};
+
+use super::scene::{exact, mission, stands};
+use super::table::Table;
+
+/// A corridor of 10 x 3 m with a pipe across it from 4 to 5: upright the robot does not fit beneath it, on its knees it does.
+struct Corridor {
+    walls: Vec<Segment>,
+    shapes: Shapes,
+    buildings: Vec<Building>,
+}
+
+const UPRIGHT: usize = 0;
+const KNEELING: usize = 1;
+
+impl Corridor {
+    fn new() -> Self {
+        let (hall, pipe) = (Rect::new(0.0, 0.0, 10.0, 3.0), Rect::new(4.0, 0.0, 5.0, 3.0));
+        let walls = polygon::sides_of_rect(&hall).to_vec();
+        let shape = |radius_m, speed, overhead| Shape { radius_m, greatest_speed_m_s: speed, overhead };
+        let shapes = vec![shape(0.3, 0.8, vec![pipe]), shape(0.4, 0.25, Vec::new())];
+        let building = |shape: &Shape| {
+            let network = Network::none(Disc { radius: shape.radius_m, margin: 0.0 });
+            let overhead = shape.overhead.iter().flat_map(polygon::sides_of_rect).collect();
+            Building { overhead, ..Building::of_walls(network, walls.clone()) }
+        };
+        let buildings = shapes.iter().map(building).collect();
+        let seconds = BTreeMap::from([((UPRIGHT, KNEELING), 2.5), ((KNEELING, UPRIGHT), 3.5)]);
+        Self { walls, shapes: Shapes { all: shapes, seconds }, buildings }
+    }
+
+    fn run(&self, mission: &Mission, router: &mut impl Router) -> Routed {
+        let on =
+            Drivable { walls: &self.walls, shapes: &self.shapes, shape: UPRIGHT, buildings: &self.buildings };
+        let mut outfit: Outfit = exact();
+        outfit.robot.radius_m = self.shapes.all[UPRIGHT].radius_m;
+        outfit.navigation.speed_m_s = 0.8;
+        mission.run_routed(&on, &outfit, router, &mut Table, |_| {}, None).unwrap()
+    }
+}
+
+/// Says the same of every question, from where the robot is.
+struct Says<F>(F, Vec<Vec<Met>>);
+
+impl<F: FnMut(Point, usize, &[Met]) -> Option<Vec<Stretch>>> Router for Says<F> {
+    fn way(&mut self, from: Point, shape: usize, met: &[Met]) -> Option<Vec<Stretch>> {
+        self.1.push(met.to_vec());
+        (self.0)(from, shape, met)
+    }
+}
+
+fn stretch(shape: usize, points: &[[f64; 2]]) -> Stretch {
+    Stretch { shape, points: points.iter().map(|at| Point::new(at[0], at[1])).collect() }
+}
+
+fn beneath(from: Point) -> Vec<Stretch> {
+    vec![
+        stretch(UPRIGHT, &[[from.x, from.y], [3.65, 1.5]]),
+        stretch(KNEELING, &[[3.65, 1.5], [5.35, 1.5]]),
+        stretch(UPRIGHT, &[[5.35, 1.5], [9.0, 1.5]]),
+    ]
+}
+
+#[test]
+fn the_robot_goes_on_its_knees_beneath_a_pipe_and_gets_up_behind_it() {
+    let corridor = Corridor::new();
+    let went = corridor.run(
+        &mission([1.0, 1.5], [9.0, 1.5], Vec::new()),
+        &mut Says(|from, _, _: &[Met]| Some(beneath(from)), Vec::new()),
+    );
+    assert_eq!(went.ending, Ending::Arrived, "{went:?}");
+    assert_eq!(went.changes, [(UPRIGHT, KNEELING), (KNEELING, UPRIGHT)]);
+    assert!(went.overlap_m < 0.0 && went.touches == 0, "{went:?}");
+    let kneeling = |shape: &(Point, usize)| shape.1 == KNEELING;
+    assert!(went.track.iter().filter(|at| (3.7..5.3).contains(&at.0.x)).all(kneeling), "{:?}", went.track);
+    assert!((1.7..2.2).contains(&went.metres[KNEELING]), "{:?}", went.metres);
+    // eight metres, two changes of shape, and looks around
+    assert!(went.simulated_s > 6.0 + 1.7 / 0.25 + 6.3 / 0.8, "{}", went.simulated_s);
+}
+
+/// What judges missions can fail: who stays upright touches the pipe, and who gets up beneath it has it in its head.
+#[test]
+fn who_stays_upright_does_not_get_through_and_who_gets_up_too_early_is_seen_to() {
+    let corridor = Corridor::new();
+    let there = mission([1.0, 1.5], [9.0, 1.5], Vec::new());
+    let upright = |from: Point, _, _: &[Met]| Some(vec![stretch(UPRIGHT, &[[from.x, from.y], [9.0, 1.5]])]);
+    let went = corridor.run(&there, &mut Says(upright, Vec::new()));
+    assert_eq!(went.ending, Ending::NoWay);
+    assert!(went.track.iter().all(|at| at.0.x < 3.71) && went.overlap_m < 1e-6, "{went:?}");
+
+    let mut blind = Corridor::new();
+    blind.buildings[UPRIGHT].overhead.clear();
+    let early = |from: Point, shape, _: &[Met]| {
+        let here = [from.x, from.y];
+        Some(match shape {
+            UPRIGHT if from.x < 4.0 => vec![
+                stretch(UPRIGHT, &[here, [3.2, 1.5]]),
+                stretch(KNEELING, &[[3.2, 1.5], [4.5, 1.5]]),
+                stretch(UPRIGHT, &[[4.5, 1.5], [9.0, 1.5]]),
+            ],
+            _ => vec![stretch(shape, &[here, [9.0, 1.5]])],
+        })
+    };
+    assert!(blind.run(&there, &mut Says(early, Vec::new())).overlap_m > 0.3);
+}
+
+#[test]
+fn where_a_box_shuts_the_corridor_it_says_what_it_saw_and_once_it_has_begun_anew_nothing_of_it() {
+    let corridor = Corridor::new();
+    let shut = mission([1.0, 1.5], [3.0, 1.5], vec![stands(2.2, 1.5, 0.3, 2.9)]);
+    let mut router = Says(
+        |from: Point, _, met: &[Met]| {
+            met.is_empty().then(|| vec![stretch(UPRIGHT, &[[from.x, from.y], [3.0, 1.5]])])
+        },
+        Vec::new(),
+    );
+    let went = corridor.run(&shut, &mut router);
+    assert_eq!((went.ending, went.touches), (Ending::NoWay, 0), "{went:?}");
+    let met: Vec<&Met> = router.1.iter().flatten().collect();
+    assert!(!met.is_empty() && met.iter().all(|met| (met.at.x - 2.05).abs() < 0.1), "{met:?}");
+    let saw = |met: &&Met| {
+        met.seen.iter().any(|surface| surface.length() > 1.0 && (surface.a.x - 2.05).abs() < 0.1)
+    };
+    assert!(met.iter().all(saw), "{met:?}");
+    assert!(met.iter().all(|met| met.heading.abs() < 0.5), "{met:?}");
+    assert!(router.1.iter().filter(|met| met.is_empty()).count() > 1, "it began anew");
+    assert_eq!(went.replans as usize + 1, router.1.len());
+}
+
+/// The way past a box that the robot has met leads it into another shape, for which the box leaves no room.
+#[test]
+fn it_does_not_change_its_shape_where_something_that_it_met_leaves_no_room() {
+    let corridor = Corridor::new();
+    let beside = mission([1.0, 1.5], [3.4, 1.5], vec![stands(2.5, 0.95, 0.5, 0.3)]);
+    let way = |from: Point, shape, met: &[Met]| {
+        let here = [from.x, from.y];
+        let at = if met.is_empty() { 1.42 } else { 2.0 };
+        let kneels = [stretch(UPRIGHT, &[here, [2.5, at]]), stretch(KNEELING, &[[2.5, at], [3.4, 1.5]])];
+        Some(if shape == UPRIGHT { kneels.to_vec() } else { vec![stretch(KNEELING, &[here, [3.4, 1.5]])] })
+    };
+    let mut router = Says(way, Vec::new());
+    let went = corridor.run(&beside, &mut router);
+    assert_eq!(went.ending, Ending::Arrived, "{went:?}");
+    assert!(went.overlap_m < 0.0 && went.changes == [(UPRIGHT, KNEELING)], "{went:?}");
+    assert!(router.1.iter().any(|met| !met.is_empty()), "it was closed once");
+}

@@ -1,0 +1,99 @@
+//! Missions on a site whose rooms are cut by state: the robot drives the site's own routes, in its shapes.
+
+use adit_tests::TestSite;
+use serde_json::Value;
+
+fn rows(site: &TestSite, args: &[&str]) -> Vec<Value> {
+    let ran = site.adit("simulate", &[args, &["--json"]].concat());
+    ran.expect_status(0).json().as_array().expect("rows").clone()
+}
+
+#[test]
+fn from_the_dock_to_ward_12_it_goes_on_its_knees_and_sideways_as_the_route_says() {
+    let site = TestSite::example("clinic").built();
+    let film = site.path().join("film.svg");
+    let rows = rows(&site, &["dock", "ward 12", "--keep", "--film", film.to_str().unwrap()]);
+    let row = &rows[0];
+    assert_eq!(
+        (&row["ending"], &row["right"], &row["collided"]),
+        (&"arrived".into(), &true.into(), &false.into())
+    );
+    let driven: Vec<&String> = row["by_state"].as_object().expect("metres by state").keys().collect();
+    assert_eq!(driven, ["SIDE-STAND", "SQUAT", "STAND"]);
+    let over = row["cost"].as_f64().expect("hardness") / row["least_cost"].as_f64().expect("hardness");
+    assert!((0.98..1.1).contains(&over), "{over}");
+    // the film shows the pipe, and the robot in each of its shapes
+    let film = site.read("film.svg");
+    for shape in ["<circle r=\"0.3\"", "<circle r=\"0.175\"", "<circle r=\"0.4\"", "x=\"18.80\" y=\"7.00\""] {
+        assert!(film.contains(shape), "{shape}");
+    }
+    // what happened is kept, and explained
+    let shapes = "SELECT json_extract(detail, '$.state') FROM journal WHERE event = 'shape' ORDER BY entry";
+    assert_eq!(site.sqlite3(shapes), ["SQUAT", "STAND", "SIDE-STAND", "STAND"]);
+    let why = site.adit("why", &["mission 1"]).expect_status(0).stdout;
+    assert!(why.contains("it ended: arrived"), "{why}");
+    // how long it took is there to fit hardness by
+    let traversals =
+        "SELECT count(*), min(measured) = max(measured) FROM traversals WHERE measure = 'seconds'";
+    assert_eq!(site.sqlite3(traversals), ["3|1"]);
+}
+
+#[test]
+fn boxes_that_nobody_knows_of_are_passed_or_said_to_shut_the_way_and_nothing_is_claimed_wrongly() {
+    for (name, robot) in [("hospital", None), ("depot", Some("crawler"))] {
+        let site = TestSite::example(name).built();
+        let robot = robot.map_or_else(Vec::new, |robot| vec!["--robot", robot]);
+        let before = site.sqlite3("SELECT count(*) FROM history");
+        let rows = rows(&site, &[&robot[..], &["--missions", "8", "--seed", "5"]].concat());
+        assert!(rows.iter().any(|row| row["obstacles"].as_u64() > Some(0)), "{rows:?}");
+        assert!(rows.iter().all(|row| row["right"] == true && row["collided"] == false), "{rows:?}");
+        assert!(rows.iter().any(|row| row["replans"].as_u64() > Some(0)), "none met anything");
+        assert_eq!(site.sqlite3("SELECT count(*) FROM history"), before, "the site is as it was");
+    }
+}
+
+#[test]
+fn what_it_meets_is_told_for_an_hour_so_that_everybody_goes_round_it_and_is_taken_back() {
+    let site = TestSite::example("hospital").built();
+    let told = site.adit("simulate", &["--missions", "1", "--seed", "12", "--tell"]);
+    assert!(told.stderr.contains("laid over the map for an hour: something at"), "{}", told.stderr);
+    let laid = "SELECT count(*) > 0, min(who), min(until) > strftime('%Y-%m-%dT%H:%M:%SZ', 'now', '+50 minutes') FROM laid";
+    assert_eq!(site.sqlite3(laid), ["1|robot|1"]);
+    let names = site.sqlite3("SELECT name FROM laid");
+    assert!(names[0].starts_with("met by robot in mission 1"), "{names:?}");
+    while !site.sqlite3("SELECT name FROM laid").is_empty() {
+        site.adit("undo", &[]).expect_status(0);
+    }
+    site.adit("doctor", &[]).expect_status(0);
+}
+
+#[test]
+fn rules_in_the_folder_navigation_of_the_site_drive_it() {
+    let site = TestSite::example("depot").built();
+    let cautious = "table \"hold\" first\n    each situation in SITUATIONS where situation.state == \"hold\"\n    given [ situation.mode ]\n    set   [ situation.next, situation.action ]\n    rows  [ [ any, \"hold\", \"no way\" ] ]\n;\n";
+    site.write("navigation/own.rhai", cautious);
+    let ends =
+        site.adit("simulate", &["--robot", "crawler", "--missions", "1", "--json"]).expect_status(1).json();
+    assert_eq!((&ends[0]["ending"], &ends[0]["right"]), (&"no_way".into(), &false.into()), "{ends}");
+    site.write(
+        "navigation/own.rhai",
+        "rule \"what\" priority 1\n    each situation in SITUATIONS\n    then { situation.nxt = 1; }\n+",
+    );
+    site.adit("simulate", &["--robot", "crawler"]).expect_status(2).complains(&["own.rhai", "4"]);
+}
+
+#[test]
+fn what_cannot_be_driven_is_said() {
+    let site = TestSite::example("depot").built();
+    site.adit("simulate", &[]).expect_status(2).complains(&["several robots", "cart, crawler, dog"]);
+    site.adit("simulate", &["--robot", "dog"])
+        .expect_status(2)
+        .complains(&["0.6 m long in its state SIDE-STEP"]);
+    site.adit("simulate", &["--robot", "cart", "--learn", "1,1"])
+        .expect_status(2)
+        .complains(&["--learn", "cut into rooms"]);
+    site.adit("simulate", &["--robot", "cart", "dok", "1,1"]).expect_status(2).complains(&["`dok`"]);
+    site.adit("simulate", &["--robot", "cart", "-5,1", "1,1"]).expect_status(2);
+    let paper = TestSite::example("paper").built();
+    paper.adit("simulate", &[]).expect_status(2).complains(&["rooms in no state"]);
+}
