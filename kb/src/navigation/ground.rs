@@ -2,14 +2,16 @@
 
 use std::collections::BTreeMap;
 
+use adit_db::room::Room;
 use adit_planners::floor_plan::{Disc, FloorPlan, Network};
 use adit_planners::geometry::{Point, Rect, Segment, polygon};
 use adit_planners::navigation::{Building, Settings, Stretch};
+use adit_planners::routes::RoomIndex;
 use adit_planners::simulator::{Shape, Shapes};
 
 use crate::answer::{Answer, Status, pick};
 use crate::error::{Code, Error, Result};
-use crate::graph::Building as Spaces;
+use crate::graph::{Building as Spaces, is_weighed};
 use crate::plan::figures;
 use crate::state::State;
 
@@ -33,6 +35,20 @@ pub struct Ground {
     pub settings: Settings,
     /// Hardness of changes of shape, by shapes.
     changes: BTreeMap<(usize, usize), f64>,
+}
+
+/// What nobody may cross in a state, though nothing is there: doorways that are closed, and the outlines of rooms that rules let
+/// nobody enter.
+fn closed(state: &State, of: &(String, String)) -> Vec<Segment> {
+    let graph = state.graph();
+    let doorways = graph.building.closed().map(Spaces::segment);
+    let is_shut = |room: &&Room| room.layer.as_ref() == Some(of) && !is_weighed(room);
+    let rooms = graph.rooms.iter().enumerate().filter(|(_, room)| is_shut(room));
+    let outlines = rooms.flat_map(|(index, _)| {
+        let corners: Vec<Point> = graph.outline(RoomIndex::new(index)).corners().collect();
+        polygon::sides(&corners).collect::<Vec<_>>()
+    });
+    doorways.chain(outlines).collect()
 }
 
 impl Ground {
@@ -100,7 +116,11 @@ impl Ground {
         let overhead: Vec<Rect> = low.map(|bridge| bridge.rect).collect();
         let sides = overhead.iter().flat_map(polygon::sides_of_rect).collect();
         let network = Network::none(Disc { radius, margin: 0.0 });
-        self.buildings.push(Building { overhead: sides, ..Building::of_walls(network, self.walls.clone()) });
+        self.buildings.push(Building {
+            overhead: sides,
+            closed: closed(state, &of),
+            ..Building::of_walls(network, self.walls.clone())
+        });
         self.shapes.all.push(Shape {
             radius_m: radius,
             greatest_speed_m_s: speed.unwrap_or(SPEED_M_S),

@@ -25,9 +25,6 @@ use crate::live::Live;
 /// A robot that is a little off is taken to be where it fits, up to so far, metres.
 const OFF_M: f64 = 0.5;
 
-/// How long what a robot reports holds.
-const REPORTED: &str = "1h";
-
 /// So far points that stay clear are off what is laid beside them, metres.
 const HAIR_M: f64 = 1e-3;
 
@@ -116,11 +113,14 @@ impl Site<'_> {
                 self.laid += 1;
                 let name = format!("met by {} in mission {mission}, {}", ground.robot, self.laid);
                 let lay = laid(name.clone(), thing);
-                edits.push(Edit::Lay(Lay { until: Some(REPORTED.to_owned()), ..lay }));
+                let until = Some(format!("{:.0}s", ground.settings.reported_s));
+                edits.push(Edit::Lay(Lay { until, ..lay }));
                 let middle = Rect::around(thing.iter().copied()).centre();
                 self.said.push(format!(
-                    "laid over the map for an hour: something at {:.1}, {:.1}, {name}",
-                    middle.x, middle.y
+                    "laid over the map for {}: something at {:.1}, {:.1}, {name}",
+                    lasting(ground.settings.reported_s),
+                    middle.x,
+                    middle.y
                 ));
                 self.told.push((name, thing.clone()));
             }
@@ -130,6 +130,17 @@ impl Site<'_> {
             self.said.extend(outcome.reacted);
         }
         Ok(())
+    }
+}
+
+/// So many seconds, as people say it.
+fn lasting(seconds: f64) -> String {
+    let minutes = (seconds / 60.0).round();
+    match minutes {
+        60.0 => "an hour".to_owned(),
+        _ if minutes % 60.0 == 0.0 => format!("{} hours", minutes / 60.0),
+        _ if minutes > 1.0 => format!("{minutes} minutes"),
+        _ => format!("{seconds} seconds"),
     }
 }
 

@@ -39,6 +39,7 @@ settings! {
             most_detours: u32 = 4, "most_detours", "", Times, "Detours from one spot before the way counts as closed.";
             most_closed: u32 = 2, "most_closed", "", Times, "Ways closed at one spot before a path is looked for off the network, through what is known to be free.";
             most_reports: u32 = 8, "most_reports", "", Times, "Ways that routes lead and that are reported closed at one spot before everything is looked at anew.";
+            reported_s: f64 = 3600.0, "reported", "s", Positive, "What the robot tells a site of which rooms are cut holds so long.";
             most_retries: u32 = 2, "most_retries", "", Times, "Times that everything is looked at anew before there is no way.";
             give_way_m: f64 = 1.5, "give_way", "m", NotNegative, "Before it begins anew the robot goes back on its own track, up to so far, to give way.";
             no_way_after_s: f64 = 180.0, "no_way_after", "s", NotNegative, "There may be a way again for so long: things that move come to rest.";

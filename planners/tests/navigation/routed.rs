@@ -134,6 +134,25 @@ fn where_a_box_shuts_the_corridor_it_says_what_it_saw_and_once_it_has_begun_anew
     assert_eq!(went.replans as usize + 1, router.1.len());
 }
 
+/// Nothing stands where nobody may go, and yet detours keep to the other side.
+#[test]
+fn a_detour_does_not_lead_over_what_is_closed() {
+    let there = mission([1.0, 1.5], [3.5, 1.5], vec![stands(2.2, 1.5, 0.3, 0.3)]);
+    let straight = |from: Point, _, _: &[Met]| Some(vec![stretch(UPRIGHT, &[[from.x, from.y], [3.5, 1.5]])]);
+    for (from, to, is_below) in [(1.7, 2.9, true), (0.1, 1.3, false)] {
+        let mut corridor = Corridor::new();
+        let line = Segment::new(Point::new(2.2, from), Point::new(2.2, to));
+        corridor.buildings.iter_mut().for_each(|building| building.closed.push(line));
+        let went = corridor.run(&there, &mut Says(straight, Vec::new()));
+        assert_eq!((went.ending, went.touches), (Ending::Arrived, 0), "{went:?}");
+        let beside = went.track.iter().filter(|at| (2.0..2.4).contains(&at.0.x));
+        assert!(
+            beside.clone().count() > 0 && beside.clone().all(|at| (at.0.y < 1.5) == is_below),
+            "{went:?}"
+        );
+    }
+}
+
 /// The way past a box that the robot has met leads it into another shape, for which the box leaves no room.
 #[test]
 fn it_does_not_change_its_shape_where_something_that_it_met_leaves_no_room() {
