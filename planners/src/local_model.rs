@@ -143,6 +143,7 @@ impl LocalModel {
                 if let Some(segment) = self.segments.last_mut() {
                     segment.recalled = Some(number);
                 }
+                self.settings.knows_walls = true;
                 count += 1;
             }
         }

@@ -90,7 +90,10 @@ impl Estimate {
         let turn = Matrix3::new(1.0, 0.0, -dy, 0.0, 1.0, dx, 0.0, 0.0, 1.0);
         let heading = settings.heading_noise.powi(2) * driven;
         // Steps are many and short, so that variances have to add up to what a whole stretch has.
-        let along = settings.distance_noise.powi(2) * settings.distance_stretch_m * driven;
+        // Where there is nothing to correct it by, what the robot found itself is held to, and steps err each by itself.
+        let has_measure = settings.knows_walls || settings.is_learning;
+        let stretch = if has_measure { settings.distance_stretch_m } else { driven };
+        let along = settings.distance_noise.powi(2) * stretch * driven;
         let (ux, uy) = if driven > 0.0 { (dx / driven, dy / driven) } else { (0.0, 0.0) };
         let step = Vector3::new(ux, uy, 0.0);
         let mut noise = step * step.transpose() * along;

@@ -56,9 +56,10 @@ impl ModelSegment {
         }
     }
 
-    /// Whether it is the robot's own find and no more: while a building is learned, such surfaces are what it will be made of.
+    /// Whether it is the robot's own find and no more: while a building is learned, such surfaces are what it will be made of, and
+    /// where no wall is known there is nothing else to go by.
     pub(super) fn is_own(&self, settings: &Settings) -> bool {
-        !self.is_anchored && !settings.is_learning
+        !self.is_anchored && !settings.is_learning && settings.knows_walls
     }
 
     /// Standard deviations across it and of its angle as seen from a robot that was there when it was found: what the pose was

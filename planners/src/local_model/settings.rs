@@ -85,6 +85,8 @@ pub struct Settings {
     pub object_patience: u32,
     /// Whether the model is to become a global one; the state table is told.
     pub is_learning: bool,
+    /// Whether there are walls to go by besides what the robot finds itself; so it is from the first one on that is recalled.
+    pub knows_walls: bool,
 }
 
 impl Default for Settings {
@@ -129,6 +131,7 @@ impl Default for Settings {
             object_step_m: 0.25,
             object_patience: 3,
             is_learning: false,
+            knows_walls: false,
         }
     }
 }
