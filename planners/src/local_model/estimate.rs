@@ -8,6 +8,9 @@ use super::{ModelSegment, Settings};
 use crate::geometry::Point;
 use crate::pose::{Pose, wrapped};
 
+/// Where no wall is known, errors of the distance are taken to be alike over such a stretch, metres.
+const FINDING_STRETCH_M: f64 = 1.0;
+
 /// Where the robot thinks it is, and how sure it is of that.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimate {
@@ -90,9 +93,8 @@ impl Estimate {
         let turn = Matrix3::new(1.0, 0.0, -dy, 0.0, 1.0, dx, 0.0, 0.0, 1.0);
         let heading = settings.heading_noise.powi(2) * driven;
         // Steps are many and short, so that variances have to add up to what a whole stretch has.
-        // Where there is nothing to correct it by, what the robot found itself is held to, and steps err each by itself.
-        let has_measure = settings.knows_walls || settings.is_learning;
-        let stretch = if has_measure { settings.distance_stretch_m } else { driven };
+        // Where no wall is known the robot goes by what it finds itself, which is the better the surer it is of its wheels.
+        let stretch = if settings.knows_walls { settings.distance_stretch_m } else { FINDING_STRETCH_M };
         let along = settings.distance_noise.powi(2) * stretch * driven;
         let (ux, uy) = if driven > 0.0 { (dx / driven, dy / driven) } else { (0.0, 0.0) };
         let step = Vector3::new(ux, uy, 0.0);

@@ -19,9 +19,6 @@ const STEP_M: f64 = 1.5;
 /// A grid does not know its distances better, metres.
 const GRID_M: f64 = 0.02;
 
-/// It looks so often that errors of the distance are alike over such a stretch at most, metres.
-const STRETCH_M: f64 = 1.0;
-
 /// From so near it looks into an opening at first, and after it was there in vain, metres.
 const LOOK_M: [f64; 2] = [1.5, 0.8];
 
@@ -72,7 +69,7 @@ impl<'b> Explorer<'b> {
     ) -> Self {
         let radius_m = nothing.network.disc.radius;
         let reach_m = radius_m + settings.detour_clearance_m + GRID_M;
-        let model = local_model::Settings { is_learning: true, distance_stretch_m: STRETCH_M, ..model };
+        let model = local_model::Settings { is_learning: true, ..model };
         let mut navigator = Navigator::new(nothing, model, settings, start);
         navigator.learn();
         // The first scan is taken where the robot stands.
