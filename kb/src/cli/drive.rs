@@ -52,7 +52,8 @@ pub fn run(args: &SimulateArgs, mut live: Live) -> Result<bool> {
             let record = record((&name, &bases), &row, &ground.states, &entries, decided);
             store.transaction(|tx| tx.keep_mission(&record))?;
         }
-        if args.keep || args.tell {
+        // who is not kept has no number of its own, by which what was measured is told apart
+        if args.keep {
             let author = adit_db::history::Author { who: ground.robot.clone(), why: String::new() };
             on.live.site().add_traversals(
                 &traversals(&name, &ground.robot, &row),

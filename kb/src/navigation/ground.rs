@@ -12,7 +12,6 @@ use adit_planners::simulator::{Shape, Shapes};
 use crate::answer::{Answer, Status, pick};
 use crate::error::{Code, Error, Result};
 use crate::graph::{Building as Spaces, is_weighed};
-use crate::plan::figures;
 use crate::state::State;
 
 /// How fast a robot is whose table does not say it, metres a second.
@@ -59,8 +58,6 @@ impl Ground {
             FloorPlan::of_world(&state.world, Some(0.0)).map_err(|errors| Error::all(errors.problems))?;
         let walls: Vec<Segment> = plan.barriers().into_iter().map(Segment::from).collect();
         let asked = state.asked();
-        let mut settings = Settings::default();
-        figures::read(asked.objects("NAVIGATION"), Settings::FIGURES, &mut settings)?;
         let rows = asked.objects("ROBOTS");
         let mut ground = Self {
             shapes: Shapes { all: Vec::new(), seconds: BTreeMap::new() },
@@ -70,7 +67,7 @@ impl Ground {
             buildings: Vec::new(),
             plan,
             walls,
-            settings,
+            settings: Settings::default(),
             changes: BTreeMap::new(),
         };
         for row in rows.rows() {

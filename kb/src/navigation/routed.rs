@@ -21,6 +21,7 @@ use crate::answer::Answer;
 use crate::edit::{Edit, Errand, Lay, Thing};
 use crate::error::{Code, Error, Result};
 use crate::live::Live;
+use crate::site::clock::stored;
 
 /// A robot that is a little off is taken to be where it fits, up to so far, metres.
 const OFF_M: f64 = 0.5;
@@ -34,6 +35,8 @@ struct Site<'l> {
     ground: &'l Ground,
     goal: String,
     mission: usize,
+    /// When it began: what was laid on another run under the same number is another thing.
+    begun: String,
     /// Whether the site is told what the robot met; otherwise that holds for this mission alone.
     tells: bool,
     /// What was laid over the map and lies there, by name.
@@ -68,7 +71,9 @@ impl Site<'_> {
             edits.extend((1..).zip(&things).map(lay));
         }
         // where it saw nothing, the way is too narrow for it, though nobody else need find it so
-        let narrow = met.iter().filter(|met| met.seen.is_empty()).map(named);
+        let world = self.live.view();
+        let is_floor = |met: &&Met| !world.world().is_solid(met.at);
+        let narrow = met.iter().filter(|met| met.seen.is_empty()).filter(is_floor).map(named);
         let errand = Errand {
             avoid: narrow.collect(),
             start_state: Some(self.ground.states[shape].clone()),
@@ -102,7 +107,7 @@ impl Site<'_> {
 
     /// Lays over the map what was met, and lifts what the robot no longer believes to be there.
     fn tell(&mut self, things: &[Vec<Point>]) -> Result<()> {
-        let Self { ground, mission, .. } = self;
+        let Self { ground, mission, begun, .. } = self;
         let author = Author { who: ground.robot.clone(), why: format!("met in mission {mission}") };
         let (kept, gone): (Vec<_>, Vec<_>) =
             mem::take(&mut self.told).into_iter().partition(|(_, thing)| things.contains(thing));
@@ -111,7 +116,7 @@ impl Site<'_> {
         for thing in things {
             if self.told.iter().all(|(_, told)| told != thing) {
                 self.laid += 1;
-                let name = format!("met by {} in mission {mission}, {}", ground.robot, self.laid);
+                let name = format!("met by {} in mission {mission} at {begun}, {}", ground.robot, self.laid);
                 let lay = laid(name.clone(), thing);
                 let until = Some(format!("{:.0}s", ground.settings.reported_s));
                 edits.push(Edit::Lay(Lay { until, ..lay }));
@@ -278,11 +283,13 @@ impl Missions<'_> {
             Drivable { walls: &ground.walls, shapes: &ground.shapes, shape, buildings: &ground.buildings };
         let mut outfit = Outfit { navigation: ground.settings, ..Outfit::default() };
         outfit.robot.radius_m = ground.shapes.all[shape].radius_m;
+        let begun = stored(self.live.site().moment("0s")?);
         let mut site = Site {
             live: self.live,
             ground,
             goal,
             mission: number,
+            begun,
             tells: self.tells,
             told: Vec::new(),
             laid: 0,
