@@ -92,6 +92,7 @@ pub(crate) const STEPS: &[Step] = &[
     Step::of_all(&[include_str!("../sql/v17/10-laid-places.sql")]),
     Step::of_all(&[include_str!("../sql/v18/10-no-outline.sql")]),
     Step { all: &[], worlds: &[include_str!("../sql/v19/10-lost.sql")] },
+    Step { all: &[], worlds: &[include_str!("../sql/v20/10-endings.sql")] },
 ];
 
 /// The newest schema version.

@@ -26,7 +26,7 @@ pub struct Mission {
     pub goal: [f64; 2],
     /// Obstacles that were not known.
     pub obstacles: i64,
-    /// `arrived`, `no_way`, `lost` or `gave_up`.
+    /// A row of `endings`: `arrived`, `no_way`, `lost`, `silent` or `gave_up`.
     pub ending: String,
     /// Metres that the robot went.
     pub length: f64,
@@ -51,8 +51,8 @@ pub struct Entry {
     pub rule: Option<Decided>,
     /// Where the robot thought it was: x, y, heading in degrees.
     pub pose: [f64; 3],
-    /// Where it was.
-    pub truth: [f64; 3],
+    /// Where it was, if anybody knows.
+    pub truth: Option<[f64; 3]>,
     /// What else there is, as JSON.
     pub detail: Option<String>,
 }
@@ -123,9 +123,9 @@ pub async fn keep(connection: &mut SqliteConnection, mission: &Mission) -> Resul
         .bind(entry.pose[0])
         .bind(entry.pose[1])
         .bind(entry.pose[2])
-        .bind(entry.truth[0])
-        .bind(entry.truth[1])
-        .bind(entry.truth[2])
+        .bind(entry.truth.map(|truth| truth[0]))
+        .bind(entry.truth.map(|truth| truth[1]))
+        .bind(entry.truth.map(|truth| truth[2]))
         .bind(entry.detail.as_deref())
         .execute(&mut *connection)
         .await?;

@@ -9,7 +9,7 @@ use std::path::Path;
 
 use adit::navigation::judge::RuleJudge;
 use adit::plan::rules::{self, Kind};
-use adit_planners::body::{Body, Command, Sensed};
+use adit_planners::body::{Body, Command, Sensed, Silence};
 use adit_planners::floor_plan::{Disc, Drawn, FloorPlan, Network};
 use adit_planners::geometry::{Point, Segment};
 use adit_planners::local_model::{self, Estimate};
@@ -52,17 +52,21 @@ fn known(walls: Vec<Segment>) -> Building {
 }
 
 /// A body of which all that matters is what it senses next.
-struct Once(Sensed);
+struct Once(Sensed, usize);
 
 impl Body for Once {
     fn radius_m(&self) -> f64 {
         0.25
     }
 
+    fn directions(&self) -> usize {
+        self.1
+    }
+
     fn command(&mut self, _: Command) {}
 
-    fn sense(&mut self) -> Sensed {
-        self.0
+    fn sense(&mut self) -> Result<Sensed, Silence> {
+        Ok(self.0.clone())
     }
 }
 
@@ -83,7 +87,7 @@ fn before_a_scan(building: &Building) -> (Navigator<'_>, RuleJudge, Sensed) {
             happened.iter().filter(|event| matches!(event.what, Happening::SetEstimatedPosition(_))).count();
         if scans == 2 {
             let (navigator, mut body) = before;
-            return (navigator, judge, body.sense());
+            return (navigator, judge, body.sense().unwrap());
         }
     }
 }
@@ -91,8 +95,9 @@ fn before_a_scan(building: &Building) -> (Navigator<'_>, RuleJudge, Sensed) {
 fn measure(bencher: Bencher, walls: Vec<Segment>) {
     let building = known(walls);
     let (navigator, mut judge, sensed) = before_a_scan(&building);
-    bencher.with_inputs(|| navigator.clone()).bench_local_values(|mut navigator| {
-        navigator.step(&mut Once(sensed), &mut judge);
+    let once = || Once(sensed.clone(), usize::from(simulator::Settings::default().readings_a_turn));
+    bencher.with_inputs(|| (navigator.clone(), once())).bench_local_values(|(mut navigator, mut once)| {
+        navigator.step(&mut once, &mut judge);
         navigator
     });
 }

@@ -12,7 +12,7 @@ use std::time::Instant;
 use adit_planners::floor_plan::{Disc, FloorPlan, Network, Rule, read_floor_plan};
 use adit_planners::geometry::Point;
 use adit_planners::navigation::learn::{Exploration, Learned, score};
-use adit_planners::navigation::{Building, Ending, Outfit, ROOM_M, draw};
+use adit_planners::navigation::{Building, Drivable, Ending, Outfit, ROOM_M, draw};
 use adit_planners::pose::Pose;
 
 /// Missions that are run with the given and with the learned model.
@@ -112,14 +112,14 @@ fn missions(plan: &FloorPlan, learned: &Learned, start: Point) {
         let Some(mission) = draw(plan, &given.network, learned.radius_m, number) else { continue };
         let outcomes = [&given, &known].map(|building| {
             mission
-                .run(&given.walls, building, &outfit, &mut table::Table, |_| {}, None)
+                .run(&Drivable::of(&given.walls, building), &outfit, None, &mut table::Table, |_| {}, None)
                 .unwrap_or_else(|error| panic!("mission {number}: {error}"))
         });
         let has_arrived = outcomes.each_ref().map(|outcome| outcome.ending == Ending::Arrived);
         for side in 0..2 {
             arrived[side] += usize::from(has_arrived[side]);
             if has_arrived == [true, true] {
-                lengths[side].push(outcomes[side].path_m);
+                lengths[side].push(outcomes[side].path_m());
             }
         }
         collisions += usize::from(outcomes[1].overlap_m > 1e-6);

@@ -12,7 +12,7 @@ use std::time::Instant;
 
 use adit_planners::floor_plan::{Disc, FloorPlan, Network, read_floor_plan};
 use adit_planners::navigation::{
-    Building, Ending, Happening, Mission, Outcome, Outfit, Possible, ROOM_M, draw,
+    Building, Drivable, Ending, Happening, Mission, Outcome, Outfit, Possible, ROOM_M, draw,
 };
 use adit_planners::read::{MapErrors, MapSettings, read_world};
 use rayon::prelude::*;
@@ -83,7 +83,8 @@ fn watch(path: &str, number: u64) {
     }
     let mut film = None;
     let journal = |entry: adit_planners::navigation::Entry| {
-        let (pose, off) = (entry.event.pose, entry.event.pose.at.distance(entry.truth.at));
+        let (pose, off) =
+            (entry.event.pose, entry.truth.map_or(0.0, |truth| entry.event.pose.at.distance(truth.at)));
         let at = format!("{:7.2} ({:.2}, {:.2}) off {off:.3}", entry.event.time_s, pose.at.x, pose.at.y);
         match entry.event.what {
             Happening::State { facts: f, decision } => println!(
@@ -103,8 +104,8 @@ fn watch(path: &str, number: u64) {
             what => println!("{at} {what:?}"),
         }
     };
-    let outcome =
-        mission.run(&building.walls, &building, &outfit, &mut table::Table, journal, Some(&mut film));
+    let on = Drivable::of(&building.walls, &building);
+    let outcome = mission.run(&on, &outfit, None, &mut table::Table, journal, Some(&mut film));
     println!("{outcome:?}");
     let file = format!("mission-{number}.svg");
     if let Some(film) = film {
@@ -118,7 +119,8 @@ fn table_of(path: &str, numbers: Range<u64>) {
     let run = |number: u64| {
         let (mission, possible) = mission(&plan, &building, &outfit, number)?;
         let start = Instant::now();
-        let outcome = mission.run(&building.walls, &building, &outfit, &mut table::Table, |_| {}, None);
+        let on = Drivable::of(&building.walls, &building);
+        let outcome = mission.run(&on, &outfit, None, &mut table::Table, |_| {}, None);
         let outcome = outcome.unwrap_or_else(|error| panic!("mission {number}: {error}"));
         let has_movers = mission.obstacles.iter().any(|obstacle| obstacle.course.is_some());
         Some(Case { number, outcome, possible, has_movers, wall_s: start.elapsed().as_secs_f64() })
@@ -161,7 +163,7 @@ fn table_of(path: &str, numbers: Range<u64>) {
         touched.len(),
         &touched[..touched.len().min(8)]
     );
-    let ratio = |case: &Case| case.possible.optimum_m.map(|optimum| case.outcome.path_m / optimum);
+    let ratio = |case: &Case| case.possible.optimum_m.map(|optimum| case.outcome.path_m() / optimum);
     let reached = || cases.iter().filter(|case| arrived(case));
     spread("path over optimum", reached().filter_map(ratio).collect());
     spread("replans", cases.iter().map(|case| f64::from(case.outcome.replans)).collect());

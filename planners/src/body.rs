@@ -1,18 +1,26 @@
 //! What a navigator knows of the robot that it drives. Whether that is a machine or a simulation is not told.
 
+use std::fmt;
+
 use crate::pose::Pose;
 
-/// A round robot with a rotating sonar, wheels (or legs) that are counted, and a skirt that feels contact. One that can change
-/// its shape is round in each.
+/// A round robot with something that measures how far it is to what stands about it (a sonar that turns, a ring of them, a planar
+/// lidar), wheels or legs that are counted, and perhaps a skirt that feels contact. One that can change its shape is round in each.
 pub trait Body {
     /// In the shape in which it is.
     fn radius_m(&self) -> f64;
 
+    /// Into how many directions it measures, all around: so many readings are a whole scan.
+    fn directions(&self) -> usize;
+
     /// What it is to do from now on; what it was doing ends.
     fn command(&mut self, command: Command);
 
-    /// Waits for the next reading of the sonar, and tells what was sensed until then.
-    fn sense(&mut self) -> Sensed;
+    /// Waits for the next readings, and tells what was sensed until then.
+    ///
+    /// # Errors
+    /// Where the body is not heard any more. It stays so.
+    fn sense(&mut self) -> Result<Sensed, Silence>;
 }
 
 /// One thing for the wheels to do. Wheels go by their own count: how far it really was is not told.
@@ -32,14 +40,25 @@ pub enum Command {
     Change { to: usize },
 }
 
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// Why a body is not heard any more, in words.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Silence(pub String);
+
+impl fmt::Display for Silence {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+#[derive(Clone, Debug, PartialEq)]
 pub struct Sensed {
     /// Seconds since the body was switched on.
     pub time_s: f64,
     /// Where the wheels' count puts the robot, beginning from the pose 0, 0, 0 when it was switched on.
     pub odometry: Pose,
-    pub reading: Reading,
-    /// What the skirt feels; nothing is felt any more once the robot has moved off.
+    /// What was measured since the last time, in the order of time: one reading of a sonar that turns, a whole scan of a lidar.
+    pub readings: Vec<Reading>,
+    /// What the skirt feels, if there is one; nothing is felt any more once the robot has moved off.
     pub contact: Option<Contact>,
     /// Whether the command is still being carried out.
     pub is_busy: bool,

@@ -16,7 +16,7 @@
 //! let wall = Segment::new(Point::new(2.0, -5.0), Point::new(2.0, 5.0));
 //! let mut robot = Simulator::new(&[wall], Vec::new(), Settings::exact(), Pose::default(), 1)?;
 //! robot.command(Command::Move { distance_m: 3.0, speed_m_s: 0.5 });
-//! let sensed = std::iter::repeat_with(|| robot.sense()).find(|sensed| !sensed.is_busy).unwrap();
+//! let sensed = std::iter::repeat_with(|| robot.sense().unwrap()).find(|sensed| !sensed.is_busy).unwrap();
 //! assert_eq!(sensed.contact.unwrap().bearing, 0.0);
 //! assert!((robot.pose().at.x - 1.75).abs() < 1e-8);
 //! # Ok::<(), adit_planners::simulator::SimulationError>(())
@@ -40,7 +40,7 @@ use std::f64::consts::TAU;
 use disc::{HAIR_M, Touch, touch};
 use obstacle::Mover;
 
-use crate::body::{Body, Command, Contact, Reading, Sensed};
+use crate::body::{Body, Command, Contact, Reading, Sensed, Silence};
 use crate::geometry::tolerance::SNAP_M;
 use crate::geometry::{Point, RayGrid, Segment, polygon};
 use crate::pose::{Pose, wrapped};
@@ -58,7 +58,8 @@ pub struct Simulator {
     random: Random,
     pose: Pose,
     odometry: Pose,
-    readings: u64,
+    /// How often it was sensed.
+    steps: u64,
     task: Task,
     touches: Vec<TouchEvent>,
 }
@@ -121,7 +122,7 @@ impl Simulator {
             random: Random::new(seed),
             pose: start,
             odometry: Pose::default(),
-            readings: 0,
+            steps: 0,
             task: Task::Rest,
             touches: Vec::new(),
         };
@@ -183,7 +184,7 @@ impl Simulator {
 
     /// Seconds since it was switched on.
     pub fn time_s(&self) -> f64 {
-        self.readings as f64 * self.settings.reading_period_s
+        self.steps as f64 * self.settings.reading_period_s
     }
 
     /// All touches so far, in the order of time. One that lasts is told once.
@@ -362,10 +363,9 @@ impl Simulator {
         };
     }
 
-    /// The next reading of the sonar. As many numbers of chance are used for each, whatever it shows.
-    fn read(&mut self) -> Reading {
-        let turn = u64::from(self.settings.readings_a_turn);
-        let bearing = wrapped(TAU * (self.readings % turn) as f64 / turn as f64);
+    /// A reading in one of the directions of a turn. As many numbers of chance are used for each, whatever it shows.
+    fn read(&mut self, direction: u64) -> Reading {
+        let bearing = wrapped(TAU * direction as f64 / f64::from(self.settings.readings_a_turn));
         let (kind, noise, place) = (self.random.share(), self.random.normal(), self.random.share());
         let reach = self.settings.sonar_range_m;
         let range_m = if kind < self.settings.missed {
@@ -397,6 +397,10 @@ impl Body for Simulator {
         self.shapes.all[self.shape].radius_m
     }
 
+    fn directions(&self) -> usize {
+        self.settings.readings_a_turn.into()
+    }
+
     fn command(&mut self, command: Command) {
         self.task = match command {
             Command::Turn { by } if by.is_finite() && by != 0.0 => Task::Turn { left: by },
@@ -412,18 +416,23 @@ impl Body for Simulator {
         };
     }
 
-    fn sense(&mut self) -> Sensed {
+    fn sense(&mut self) -> Result<Sensed, Silence> {
         self.advance();
-        let reading = self.read();
-        self.readings += 1;
-        Sensed {
+        let directions = u64::from(self.settings.readings_a_turn);
+        let first = self.steps * u64::from(self.settings.readings_at_once);
+        let readings = (first..)
+            .take(self.settings.readings_at_once.into())
+            .map(|n| self.read(n % directions))
+            .collect();
+        self.steps += 1;
+        Ok(Sensed {
             time_s: self.time_s(),
             odometry: self.odometry,
-            reading,
-            contact: self.contact(),
+            readings,
+            contact: self.contact().filter(|_| self.settings.has_skirt),
             is_busy: self.task != Task::Rest,
             shape: self.shape,
-        }
+        })
     }
 }
 

@@ -11,7 +11,7 @@ use crate::worlds::are_kept;
 pub struct Decision {
     /// The rule base of the mission.
     pub rules: String,
-    /// How the mission ended: `arrived`, `no_way`, `lost` or `gave_up`.
+    /// How the mission ended: a row of `endings`.
     pub ending: String,
     /// Where the mission led from and to.
     pub ends: [[f64; 2]; 2],

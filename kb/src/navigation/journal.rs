@@ -27,7 +27,7 @@ pub fn record(
             change,
             rule: rule.as_ref().map(decided),
             pose: numbers(&entry.event.pose),
-            truth: numbers(&entry.truth),
+            truth: entry.truth.as_ref().map(numbers),
             detail: detail.map(|detail| detail.to_string()),
         }
     };
@@ -90,6 +90,7 @@ fn told(what: &Happening, shapes: &[String]) -> Told {
             ("located", None, Some(json!({"poses": poses, "anywhere": is_anywhere})))
         }
         Happening::Sought(at) => ("sought", None, Some(json!({"at": [at.x, at.y]}))),
+        Happening::Silent(why) => ("silent", None, Some(json!({"why": why}))),
         Happening::Retried => ("begun anew", None, None),
         Happening::Reached(at) => ("reached", None, Some(json!({"at": [at.x, at.y]}))),
         Happening::Ended(ending) => {

@@ -6,7 +6,7 @@ use std::time::Instant;
 use adit_engine::Considered;
 use adit_planners::geometry::Segment;
 use adit_planners::navigation::{
-    Building, Ending, Entry, Judge, Mission, Outcome, Outfit, Possible, WayFacts, draw,
+    Building, Drivable, Ending, Entry, Judge, Mission, Outcome, Outfit, WayFacts, draw,
 };
 use adit_planners::simulator::Film;
 use rayon::prelude::*;
@@ -26,7 +26,7 @@ pub struct Row {
     pub goal: [f64; 2],
     /// How many obstacles are not known to the robot.
     pub obstacles: usize,
-    /// `arrived`, `no_way`, `lost` or `gave_up`.
+    /// `arrived`, `no_way`, `lost`, `silent` or `gave_up`.
     pub ending: &'static str,
     /// Whether a disc of the robot's radius can get there with the obstacles at rest.
     pub possible: Option<bool>,
@@ -66,7 +66,64 @@ pub struct Row {
     pub milliseconds: f64,
 }
 
+/// What is possible for who knows of all obstacles where they come to rest.
+#[derive(Clone, Copy, Debug)]
+pub struct Judged {
+    pub is_possible: bool,
+    /// Whether it is for a robot with room to spare on either side.
+    pub is_with_room: bool,
+    /// The hardness of the best route, where routes lead by hardness.
+    pub least_cost: Option<f64>,
+    /// The length of the shortest path, or of the best route, metres.
+    pub optimum_m: Option<f64>,
+}
+
+impl Judged {
+    /// Whether a mission ended as it should: a robot that says that it has arrived stands over its goal.
+    fn is_right(&self, outcome: &Outcome, radius: f64) -> bool {
+        match outcome.ending {
+            Ending::Arrived => self.is_possible && outcome.miss_m <= radius,
+            Ending::NoWay => !self.is_with_room,
+            Ending::Lost | Ending::Silent | Ending::OutOfPatience => false,
+        }
+    }
+}
+
 impl Row {
+    /// How a mission went, of a robot of a radius.
+    pub fn new(
+        (number, mission): (usize, &Mission),
+        outcome: &Outcome,
+        judged: Option<Judged>,
+        radius: f64,
+    ) -> Self {
+        Self {
+            mission: number,
+            seed: mission.seed,
+            start: [mission.start.at.x, mission.start.at.y],
+            goal: [mission.goal.x, mission.goal.y],
+            obstacles: mission.obstacles.len(),
+            ending: ending(outcome.ending),
+            possible: judged.map(|judged| judged.is_possible),
+            possible_with_room: judged.map(|judged| judged.is_with_room),
+            right: judged.map(|judged| judged.is_right(outcome, radius)),
+            length: outcome.path_m(),
+            optimum: judged.and_then(|judged| judged.optimum_m),
+            by_state: BTreeMap::new(),
+            changes: outcome.changes.len() as u32,
+            cost: None,
+            least_cost: judged.and_then(|judged| judged.least_cost),
+            replans: outcome.replans,
+            detours: outcome.detours,
+            touches: outcome.touches,
+            collided: outcome.overlap_m > TOUCH_M,
+            miss: outcome.miss_m,
+            worst_error: outcome.worst_error_m,
+            seconds: outcome.simulated_s,
+            milliseconds: 0.0,
+        }
+    }
+
     /// How many times as far as the shortest path the robot went, or as hard as the best route; `None` where there is none, or
     /// where the robot began at its goal.
     pub fn over_optimum(&self) -> Option<f64> {
@@ -78,7 +135,7 @@ impl Row {
 }
 
 /// Deeper than that is a collision, metres.
-pub(super) const TOUCH_M: f64 = 1e-6;
+const TOUCH_M: f64 = 1e-6;
 
 pub fn drawn(floor: &Floor, missions: usize, seed: u64) -> Result<Vec<Mission>> {
     let of = |number: usize| {
@@ -187,36 +244,18 @@ fn judged(
 ) -> Result<Row> {
     let before = Instant::now();
     let outcome = mission
-        .run(&stage.walls, &stage.building, &stage.outfit, judge, journal, film)
+        .run(&Drivable::of(&stage.walls, &stage.building), &stage.outfit, None, judge, journal, film)
         .map_err(Error::of(Code::SimulateImpossible))?;
     let milliseconds = before.elapsed().as_secs_f64() * 1e3;
     let radius = stage.truth.network.disc.radius;
     let possible = mission.possible(&stage.truth.plan, radius).filter(|_| stage.is_open);
-    Ok(Row {
-        mission: number,
-        seed: mission.seed,
-        start: [mission.start.at.x, mission.start.at.y],
-        goal: [mission.goal.x, mission.goal.y],
-        obstacles: mission.obstacles.len(),
-        ending: ending(outcome.ending),
-        possible: possible.map(|possible| possible.is_for_radius),
-        possible_with_room: possible.map(|possible| possible.is_with_room),
-        right: possible.map(|possible| is_right(&outcome, &possible, radius)),
-        length: outcome.path_m,
-        optimum: possible.and_then(|possible| possible.optimum_m),
-        by_state: BTreeMap::new(),
-        changes: 0,
-        cost: None,
+    let judged = possible.map(|possible| Judged {
+        is_possible: possible.is_for_radius,
+        is_with_room: possible.is_with_room,
         least_cost: None,
-        replans: outcome.replans,
-        detours: outcome.detours,
-        touches: outcome.touches,
-        collided: outcome.overlap_m > TOUCH_M,
-        miss: outcome.miss_m,
-        worst_error: outcome.worst_error_m,
-        seconds: outcome.simulated_s,
-        milliseconds,
-    })
+        optimum_m: possible.optimum_m,
+    });
+    Ok(Row { milliseconds, ..Row::new((number, mission), &outcome, judged, radius) })
 }
 
 /// The word for an ending, as rows and the journal have it.
@@ -225,15 +264,7 @@ pub const fn ending(ending: Ending) -> &'static str {
         Ending::Arrived => "arrived",
         Ending::NoWay => "no_way",
         Ending::Lost => "lost",
+        Ending::Silent => "silent",
         Ending::OutOfPatience => "gave_up",
-    }
-}
-
-/// A robot that says that it has arrived stands over its goal.
-fn is_right(outcome: &Outcome, possible: &Possible, radius: f64) -> bool {
-    match outcome.ending {
-        Ending::Arrived => possible.is_for_radius && outcome.miss_m <= radius,
-        Ending::NoWay => !possible.is_with_room,
-        Ending::Lost | Ending::OutOfPatience => false,
     }
 }

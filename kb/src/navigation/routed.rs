@@ -1,22 +1,19 @@
 //! Missions on a site whose rooms are cut by state: a simulated robot drives the site's own routes, changes its shape where
 //! they say so, and asks for another route where its way is closed.
 
-use std::collections::BTreeMap;
 use std::mem;
 use std::time::Instant;
 
 use adit_db::history::Author;
 use adit_engine::RuleBase;
 use adit_planners::geometry::{Point, Rect, Segment, polygon};
-use adit_planners::navigation::{
-    Drivable, Ending, Entry, Met, Mission, Outfit, ROOM_M, Routed, Router, Stretch, draw_along,
-};
+use adit_planners::navigation::{Drivable, Entry, Met, Mission, Outfit, ROOM_M, Router, Stretch, draw_along};
 use adit_planners::pose::Pose;
 use adit_planners::simulator::Film;
 
 use super::ground::Ground;
 use super::judge::{Noting, RuleJudge};
-use super::missions::{Journal, Row, TOUCH_M, ending, refuse};
+use super::missions::{Journal, Judged, Row, refuse};
 use crate::answer::Answer;
 use crate::edit::{Edit, Errand, Lay, Thing};
 use crate::error::{Code, Error, Result};
@@ -279,8 +276,8 @@ impl Missions<'_> {
         let first = asked(self.live, &[], (mission.start.at, &goal), &Errand::default(), &ground.robot)?;
         let shape = self.first_shape(&first, mission.start.at)?;
         let judged = self.judged(mission, &goal, shape)?;
-        let on =
-            Drivable { walls: &ground.walls, shapes: &ground.shapes, shape, buildings: &ground.buildings };
+        let shapes = Some(&ground.shapes);
+        let on = Drivable { walls: &ground.walls, shapes, shape, buildings: &ground.buildings };
         let mut outfit = Outfit { navigation: ground.settings, ..Outfit::default() };
         outfit.robot.radius_m = ground.shapes.all[shape].radius_m;
         let begun = stored(self.live.site().moment("0s")?);
@@ -299,15 +296,23 @@ impl Missions<'_> {
         let mut judge = RuleJudge::of_rules(self.rules)?;
         let mut noting = Noting::new(&mut judge);
         let mut entries: Vec<Entry> = Vec::new();
-        let routed = mission
-            .run_routed(&on, &outfit, &mut site, &mut noting, |entry| entries.push(entry), film)
+        let outcome = mission
+            .run(&on, &outfit, Some(&mut site), &mut noting, |entry| entries.push(entry), film)
             .map_err(Error::of(Code::SimulateImpossible))?;
         let (said, trouble, decided) = (site.said, site.trouble, noting.decided);
         if let Some(trouble) = trouble {
             return Err(trouble);
         }
         refuse(judge.trouble())?;
-        let row = self.row((number, mission), &routed, &judged, before.elapsed().as_secs_f64() * 1e3);
+        let milliseconds = before.elapsed().as_secs_f64() * 1e3;
+        let radius = ground.shapes.all[outcome.shape].radius_m;
+        let states = ground.states.iter().cloned().zip(outcome.metres.iter().copied());
+        let row = Row {
+            by_state: states.filter(|(_, metres)| *metres > 0.0).collect(),
+            cost: Some(ground.hardness(&self.live.fork(), &outcome.track, &outcome.changes)),
+            milliseconds,
+            ..Row::new((number, mission), &outcome, Some(judged), radius)
+        };
         Ok(((row, entries, decided), said))
     }
 
@@ -341,8 +346,8 @@ impl Missions<'_> {
         Ok(Judged {
             is_possible: known.cost.is_some(),
             is_with_room: roomy.cost.is_some(),
-            best: known.cost,
-            metres: known.distance,
+            least_cost: known.cost,
+            optimum_m: known.distance,
         })
     }
 
@@ -354,56 +359,4 @@ impl Missions<'_> {
             Edit::Set("robots".to_owned(), key, "width".to_owned(), width)
         })
     }
-
-    fn row(
-        &self,
-        (number, mission): (usize, &Mission),
-        routed: &Routed,
-        judged: &Judged,
-        milliseconds: f64,
-    ) -> Row {
-        let radius = self.ground.shapes.all[routed.shape].radius_m;
-        let states = self.ground.states.iter().cloned().zip(routed.metres.iter().copied());
-        let by_state: BTreeMap<String, f64> = states.filter(|(_, metres)| *metres > 0.0).collect();
-        Row {
-            mission: number,
-            seed: mission.seed,
-            start: [mission.start.at.x, mission.start.at.y],
-            goal: [mission.goal.x, mission.goal.y],
-            obstacles: mission.obstacles.len(),
-            ending: ending(routed.ending),
-            possible: Some(judged.is_possible),
-            possible_with_room: Some(judged.is_with_room),
-            right: Some(match routed.ending {
-                Ending::Arrived => judged.is_possible && routed.miss_m <= radius,
-                Ending::NoWay => !judged.is_with_room,
-                Ending::Lost | Ending::OutOfPatience => false,
-            }),
-            length: routed.metres.iter().sum(),
-            optimum: judged.metres,
-            by_state,
-            changes: routed.changes.len() as u32,
-            cost: Some(self.ground.hardness(&self.live.fork(), &routed.track, &routed.changes)),
-            least_cost: judged.best,
-            replans: routed.replans,
-            detours: routed.detours,
-            touches: routed.touches,
-            collided: routed.overlap_m > TOUCH_M,
-            miss: routed.miss_m,
-            worst_error: routed.worst_error_m,
-            seconds: routed.simulated_s,
-            milliseconds,
-        }
-    }
-}
-
-/// What is possible for who knows of all obstacles where they come to rest.
-struct Judged {
-    is_possible: bool,
-    /// Whether it is for a robot with room to spare on either side, in each of its states.
-    is_with_room: bool,
-    /// The hardness of the best route.
-    best: Option<f64>,
-    /// Its length.
-    metres: Option<f64>,
 }

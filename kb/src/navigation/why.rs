@@ -23,7 +23,7 @@ use crate::words::suggest::did_you_mean;
 pub struct Answer {
     pub world: String,
     pub mission: i64,
-    /// How it ended: `arrived`, `no_way`, `lost` or `gave_up`.
+    /// How it ended: `arrived`, `no_way`, `lost`, `silent` or `gave_up`.
     pub ending: String,
     /// Where the mission led from and to, metres.
     pub ends: [[f64; 2]; 2],
@@ -178,7 +178,7 @@ impl Answer {
                 "mission {} of {}, from ({x0:.2}, {y0:.2}) to ({x1:.2}, {y1:.2})",
                 self.mission, self.world
             ),
-            format!("it ended: {}, after {} m", self.ending.replace('_', " "), number(self.length)),
+            format!("it {}, after {} m", ended(&self.ending), number(self.length)),
         ];
         lines.extend(self.story.iter().map(Chapter::line));
         lines.push(format!(
@@ -207,5 +207,17 @@ fn told(value: &Value) -> String {
         Value::Number(value) => value.as_f64().map_or_else(|| value.to_string(), number),
         Value::String(text) => text.clone(),
         other => other.to_string(),
+    }
+}
+
+/// How a mission ended, in words.
+fn ended(ending: &str) -> &str {
+    match ending {
+        "arrived" => "arrived",
+        "no_way" => "found no way",
+        "lost" => "did not know where it was",
+        "silent" => "was not heard any more",
+        "gave_up" => "gave up",
+        other => other,
     }
 }

@@ -115,7 +115,7 @@ impl<J: Judge, W: FnMut(Entry)> Drive<'_, J, W> {
     }
 
     fn look(&mut self) {
-        for _ in 0..=self.navigator.settings().scan_readings {
+        for _ in 0..=self.navigator.scan_readings() {
             self.step();
         }
     }
@@ -127,7 +127,7 @@ impl<J: Judge, W: FnMut(Entry)> Drive<'_, J, W> {
         self.driven.path_m += before.at.distance(truth.at);
         self.driven.overlap_m = self.driven.overlap_m.max(self.body.overlap_m());
         for event in self.navigator.take_events() {
-            (self.journal)(Entry { event, truth });
+            (self.journal)(Entry { event, truth: Some(truth) });
         }
         ending
     }

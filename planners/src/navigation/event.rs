@@ -76,6 +76,8 @@ pub enum Happening {
     },
     /// The robot sets out to where known walls tell where it is.
     Sought(Point),
+    /// The body is not heard any more: why.
+    Silent(String),
     /// A goal point on the path was reached.
     Reached(Point),
     Ended(Ending),
@@ -87,6 +89,8 @@ pub enum Ending {
     NoWay,
     /// The robot does not know where it is.
     Lost,
+    /// The robot is not heard any more.
+    Silent,
     /// It took longer than [`Settings::patience_s`].
     OutOfPatience,
 }

@@ -2,12 +2,14 @@
 
 use super::judge::{Action, Judge, StateDecision};
 use super::known::Building;
+use super::router::Router;
+use super::run::run;
 use super::{Ending, Event, Happening, Navigator, Settings};
 use crate::floor_plan::{Disc, Drawn, FloorPlan, Network, Rule};
 use crate::geometry::{Point, Segment};
 use crate::local_model::{self, Estimate};
 use crate::pose::{Pose, wrapped};
-use crate::simulator::{self, Film, Frame, Obstacle, SimulationError, Simulator};
+use crate::simulator::{self, Film, Frame, Obstacle, Shapes, SimulationError, Simulator};
 
 /// A robot's start, its goal, and what nobody told it of.
 #[derive(Clone, Debug, PartialEq)]
@@ -50,20 +52,45 @@ impl Outfit {
     }
 }
 
-/// An event with the truth beside it.
+/// An event, with the truth beside it where that is known.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Entry {
     /// What the navigator told.
     pub event: Event,
-    /// Where the robot really was.
-    pub truth: Pose,
+    /// Where the robot really was; of a machine nobody knows it.
+    pub truth: Option<Pose>,
 }
 
+/// Where missions are run.
+#[derive(Clone, Copy, Debug)]
+pub struct Drivable<'w> {
+    /// What stands, as it is: it may be otherwise than the robot knows it.
+    pub walls: &'w [Segment],
+    /// The robot's shapes; `None` for one that stays as its outfit has it.
+    pub shapes: Option<&'w Shapes>,
+    /// The shape in which it begins, by number.
+    pub shape: usize,
+    /// The building as it is known to the robot, in each of its shapes.
+    pub buildings: &'w [Building],
+}
+
+impl<'w> Drivable<'w> {
+    /// Walls, and a building that the robot knows.
+    pub const fn of(walls: &'w [Segment], building: &'w Building) -> Self {
+        Self { walls, shapes: None, shape: 0, buildings: std::slice::from_ref(building) }
+    }
+}
+
+/// How a mission went.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outcome {
     pub ending: Ending,
-    /// Metres that the robot really went.
-    pub path_m: f64,
+    /// The shape in which it ended.
+    pub shape: usize,
+    /// Metres that the robot really went, by shape.
+    pub metres: Vec<f64>,
+    /// Changes of shape, in order: from which into which.
+    pub changes: Vec<(usize, usize)>,
     /// Times that a way was closed and another one looked for.
     pub replans: u32,
     pub detours: u32,
@@ -71,8 +98,8 @@ pub struct Outcome {
     pub simulated_s: f64,
     /// Touches of the skirt by the robot: it went there, and stopped.
     pub touches: usize,
-    /// The deepest that anything was within the robot, metres; below 0 where there was always a gap. More than a hair is
-    /// a collision.
+    /// The deepest that anything was within the robot, or hung in it, metres; below 0 where there was always a gap. More than
+    /// a hair is a collision.
     pub overlap_m: f64,
     /// Metres from where the robot really was at the end to the goal.
     pub miss_m: f64,
@@ -80,7 +107,12 @@ pub struct Outcome {
     pub worst_error_m: f64,
     /// The largest error of the estimated heading, radians.
     pub worst_heading_error: f64,
+    /// Where the robot really was, in which shape, whenever it had gone on a little.
+    pub track: Vec<(Point, usize)>,
 }
+
+/// The track has a point each so many metres.
+const TRACK_M: f64 = 0.25;
 
 /// What can be, with the obstacles where they come to rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -97,65 +129,52 @@ pub struct Possible {
 pub const ROOM_M: f64 = 0.10;
 
 impl Mission {
-    /// Runs the mission among walls, which may be others than those of the building that the robot knows.
+    /// Runs the mission.
     ///
     /// # Arguments
-    /// `journal` gets every event; `film` gets a frame for each scan and for each event worth a caption.
+    /// `router` finds the ways, where somebody else than the navigator does. `journal` gets every event; `film` gets a frame
+    /// for each scan and for each event worth a caption.
     pub fn run(
         &self,
-        walls: &[Segment],
-        building: &Building,
+        on: &Drivable<'_>,
         outfit: &Outfit,
+        router: Option<&mut dyn Router>,
         judge: &mut impl Judge,
         mut journal: impl FnMut(Entry),
         mut film: Option<&mut Option<Film>>,
     ) -> Result<Outcome, SimulationError> {
-        let mut body = Simulator::new(walls, self.obstacles.clone(), outfit.robot, self.start, self.seed)?;
+        let mut body = Simulator::new(on.walls, self.obstacles.clone(), outfit.robot, self.start, self.seed)?;
+        if let Some(shapes) = on.shapes {
+            body = body.in_shape(shapes.clone(), on.shape)?;
+        }
         let start = outfit.estimate(self.start);
-        let mut navigator = Navigator::new(building, outfit.model, outfit.navigation, start);
+        let mut navigator =
+            Navigator::of_shapes((on.buildings, on.shape), outfit.model, outfit.navigation, start);
         if let Some(film) = &mut film {
             **film = Some(Film::new(&body).to(self.goal));
         }
-        navigator.go(self.goal, judge);
-        let mut outcome = Outcome {
-            ending: Ending::OutOfPatience,
-            path_m: 0.0,
-            replans: 0,
-            detours: 0,
-            simulated_s: 0.0,
-            touches: 0,
-            overlap_m: f64::NEG_INFINITY,
-            miss_m: 0.0,
-            worst_error_m: 0.0,
-            worst_heading_error: 0.0,
-        };
-        loop {
-            let before = body.pose();
-            let ending = navigator.step(&mut body, judge);
-            let (truth, thought) = (body.pose(), navigator.estimate().pose);
-            outcome.path_m += before.at.distance(truth.at);
-            outcome.worst_error_m = outcome.worst_error_m.max(thought.at.distance(truth.at));
-            let turned = wrapped(thought.heading - truth.heading).abs();
-            outcome.worst_heading_error = outcome.worst_heading_error.max(turned);
-            outcome.overlap_m = outcome.overlap_m.max(body.overlap_m());
-            for event in navigator.take_events() {
+        let mut outcome = Outcome::begun(self.start, on);
+        let mut before = (body.pose(), body.shape());
+        let ending = run(&mut body, &mut navigator, self.goal, router, judge, |body, navigator, events| {
+            outcome.note(body, before, navigator);
+            before = (body.pose(), body.shape());
+            for event in events {
                 outcome.detours += u32::from(matches!(event.what, Happening::Detour { .. }));
                 if let Some(Some(film)) = film.as_deref_mut() {
-                    film_event(film, &body, &navigator, &event);
+                    film_event(film, body, navigator, &event);
                 }
-                journal(Entry { event, truth });
+                journal(Entry { event, truth: Some(body.pose()) });
             }
-            if let Some(ending) = ending {
-                return Ok(Outcome {
-                    ending,
-                    replans: navigator.replans(),
-                    simulated_s: body.time_s(),
-                    touches: body.touches_by_robot(),
-                    miss_m: truth.at.distance(self.goal),
-                    ..outcome
-                });
-            }
-        }
+        });
+        Ok(Outcome {
+            ending,
+            shape: body.shape(),
+            replans: navigator.replans(),
+            simulated_s: body.time_s(),
+            touches: body.touches_by_robot(),
+            miss_m: body.pose().at.distance(self.goal),
+            ..outcome
+        })
     }
 
     /// Whether the mission can be done, by an exact search that knows of every obstacle where it comes to rest.
@@ -177,6 +196,49 @@ impl Mission {
     }
 }
 
+impl Outcome {
+    /// Of a mission of which nothing was driven yet.
+    fn begun(start: Pose, on: &Drivable<'_>) -> Self {
+        Self {
+            ending: Ending::OutOfPatience,
+            shape: on.shape,
+            metres: vec![0.0; on.buildings.len()],
+            changes: Vec::new(),
+            replans: 0,
+            detours: 0,
+            simulated_s: 0.0,
+            touches: 0,
+            overlap_m: f64::NEG_INFINITY,
+            miss_m: 0.0,
+            worst_error_m: 0.0,
+            worst_heading_error: 0.0,
+            track: vec![(start.at, on.shape)],
+        }
+    }
+
+    /// Metres that the robot really went.
+    pub fn path_m(&self) -> f64 {
+        self.metres.iter().sum()
+    }
+
+    /// Takes note of a step from a pose, in a shape.
+    fn note(&mut self, body: &Simulator, (before, shape): (Pose, usize), navigator: &Navigator<'_>) {
+        let (now, truth, thought) = (body.shape(), body.pose(), navigator.estimate().pose);
+        self.metres[shape] += before.at.distance(truth.at);
+        if now != shape {
+            self.changes.push((shape, now));
+        }
+        let is_far = self.track.last().is_none_or(|(last, _)| last.distance(truth.at) >= TRACK_M);
+        if is_far || now != shape {
+            self.track.push((truth.at, now));
+        }
+        self.worst_error_m = self.worst_error_m.max(thought.at.distance(truth.at));
+        let turned = wrapped(thought.heading - truth.heading).abs();
+        self.worst_heading_error = self.worst_heading_error.max(turned);
+        self.overlap_m = self.overlap_m.max(body.overlap_m());
+    }
+}
+
 /// A state and an action, as films say them.
 pub(super) fn state_caption(decision: StateDecision) -> String {
     let state = format!("{:?}", decision.state).to_lowercase();
@@ -195,7 +257,7 @@ pub(super) fn state_caption(decision: StateDecision) -> String {
     }
 }
 
-pub(super) fn film_event(film: &mut Film, body: &Simulator, navigator: &Navigator, event: &Event) {
+fn film_event(film: &mut Film, body: &Simulator, navigator: &Navigator, event: &Event) {
     let caption = match &event.what {
         Happening::State { decision, .. } => state_caption(*decision),
         Happening::Detour { length_m, .. } => format!("detour of {length_m:.1} m"),
@@ -210,6 +272,7 @@ pub(super) fn film_event(film: &mut Film, body: &Simulator, navigator: &Navigato
         Happening::Ended(Ending::Arrived) => "arrived".to_owned(),
         Happening::Ended(Ending::NoWay) => "no way".to_owned(),
         Happening::Ended(Ending::Lost) => "lost".to_owned(),
+        Happening::Ended(Ending::Silent) => "not heard any more".to_owned(),
         Happening::Ended(Ending::OutOfPatience) => "given up".to_owned(),
         _ => return,
     };

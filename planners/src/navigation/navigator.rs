@@ -78,6 +78,8 @@ pub struct Navigator<'b> {
     squeezes: u32,
     replans: u32,
     radius_m: f64,
+    /// Into how many directions the body measures.
+    directions: usize,
     sensed: Option<Sensed>,
     contact: Option<Contact>,
     /// The straight course that was commanded last; `None` where the wheels turn or stand.
@@ -188,6 +190,7 @@ impl<'b> Navigator<'b> {
             squeezes: 0,
             replans: 0,
             radius_m: building.network.disc.radius,
+            directions: 1,
             sensed: None,
             contact: None,
             course: None,
@@ -214,6 +217,16 @@ impl<'b> Navigator<'b> {
 
     pub fn state(&self) -> State {
         self.state
+    }
+
+    /// The shape in which the body is, by number.
+    pub fn shape(&self) -> usize {
+        self.sensed.as_ref().map_or(self.needed, |sensed| sensed.shape)
+    }
+
+    /// The building as it is for the robot in each of its shapes.
+    pub(super) fn shapes(&self) -> &'b [Building] {
+        self.shapes
     }
 
     /// The goal points that are left, in order.
@@ -256,7 +269,7 @@ impl<'b> Navigator<'b> {
     }
 
     pub fn is_busy(&self) -> bool {
-        self.sensed.is_none_or(|sensed| sensed.is_busy)
+        self.sensed.as_ref().is_none_or(|sensed| sensed.is_busy)
     }
 
     pub fn settings(&self) -> &Settings {
@@ -298,11 +311,16 @@ impl<'b> Navigator<'b> {
     /// # Returns
     /// How the mission ended, if it did.
     pub fn step(&mut self, body: &mut impl Body, judge: &mut impl Judge) -> Option<Ending> {
-        self.sense(body, judge);
+        if let Err(silence) = self.sense(body, judge) {
+            self.tell(Happening::Silent(silence.0));
+            self.tell(Happening::Ended(Ending::Silent));
+            self.manual(body);
+            return Some(Ending::Silent);
+        }
         if self.mode == Mode::Manual {
             return None;
         }
-        if self.sensed.is_some_and(|sensed| !sensed.is_busy)
+        if self.sensed.as_ref().is_some_and(|sensed| !sensed.is_busy)
             && let Some(then_m) = self.then_m.take()
         {
             self.drive_straight(body, then_m);
@@ -324,12 +342,22 @@ impl<'b> Navigator<'b> {
     }
 
     fn is_scan_complete(&self) -> bool {
-        self.readings_standing >= self.settings.scan_readings
+        self.readings_standing >= self.scan_readings()
+    }
+
+    /// Readings that make a whole scan: all around, and no fewer than the figure for a body that measures into few directions.
+    pub(super) fn scan_readings(&self) -> usize {
+        self.settings.scan_readings.max(self.directions)
+    }
+
+    /// Readings after which the model is updated on the way, as large a share of a whole scan as by the figures.
+    fn part_readings(&self) -> usize {
+        self.settings.part_readings * self.scan_readings() / self.settings.scan_readings
     }
 
     /// Where the wheels' count puts the robot.
     pub(super) fn odometry(&self) -> Pose {
-        self.sensed.map_or_else(Pose::default, |sensed| sensed.odometry)
+        self.sensed.as_ref().map_or_else(Pose::default, |sensed| sensed.odometry)
     }
 
     /// The surfaces that stand, however new they are.
@@ -343,7 +371,7 @@ impl<'b> Navigator<'b> {
 
     /// Seconds by the body's clock.
     pub(super) fn time_s(&self) -> f64 {
-        self.sensed.map_or(0.0, |sensed| sensed.time_s)
+        self.sensed.as_ref().map_or(0.0, |sensed| sensed.time_s)
     }
 
     fn tell(&mut self, what: Happening) {

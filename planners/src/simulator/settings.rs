@@ -12,11 +12,15 @@ pub struct Settings {
     pub heading_noise: f64,
     /// By how much the heading drifts to the left unnoticed, radians a metre.
     pub heading_bias: f64,
-    /// How many readings the sonar takes in a turn.
+    /// Into how many directions it measures, all around.
     pub readings_a_turn: u16,
-    /// Seconds from a reading to the next. Sound needs 0.047 s for 8 m and back.
+    /// In how many of them at once, one beside the other: 1 for a sonar that turns, all of them for a lidar.
+    pub readings_at_once: u16,
+    /// Seconds from these readings to the next. Sound needs 0.047 s for 8 m and back.
     pub reading_period_s: f64,
-    /// How far the sonar hears, metres.
+    /// Whether a skirt feels what the robot touches.
+    pub has_skirt: bool,
+    /// How far away something is measured, metres.
     pub sonar_range_m: f64,
     /// Standard deviation of a reading, as a share of it.
     pub range_noise: f64,
@@ -36,7 +40,9 @@ impl Default for Settings {
             heading_noise: 1.0_f64.to_radians(),
             heading_bias: 0.05_f64.to_radians(),
             readings_a_turn: 120,
+            readings_at_once: 1,
             reading_period_s: 0.05,
+            has_skirt: true,
             sonar_range_m: 8.0,
             range_noise: 0.01,
             missed: 0.02,
@@ -66,6 +72,7 @@ impl Settings {
             ("greatest_speed_m_s", self.greatest_speed_m_s),
             ("turning_speed", self.turning_speed),
             ("readings_a_turn", f64::from(self.readings_a_turn)),
+            ("readings_at_once", f64::from(self.readings_at_once)),
             ("reading_period_s", self.reading_period_s),
             ("sonar_range_m", self.sonar_range_m),
         ];
@@ -78,7 +85,9 @@ impl Settings {
         let bad_above = above.into_iter().find(|(_, value)| !(value.is_finite() && *value > 0.0));
         let bad_share = shares.into_iter().find(|(_, value)| !(0.0..=1.0).contains(value));
         let bad_noise = noises.into_iter().find(|(_, value)| !(value.is_finite() && *value >= 0.0));
+        let bad_count = (self.readings_at_once > self.readings_a_turn)
+            .then_some(("readings_at_once", f64::from(self.readings_at_once)));
         let bad_bias = (!self.heading_bias.is_finite()).then_some(("heading_bias", self.heading_bias));
-        bad_above.or(bad_share).or(bad_noise).or(bad_bias)
+        bad_above.or(bad_count).or(bad_share).or(bad_noise).or(bad_bias)
     }
 }

@@ -41,9 +41,10 @@ impl World {
     }
 
     fn turn(&mut self) -> Vec<Reading> {
-        let readings =
-            (0..120).map(|_| self.robot.sense()).inspect(|sensed| self.model.reckon(&sensed.odometry));
-        readings.map(|sensed| sensed.reading).collect()
+        let readings = (0..120)
+            .map(|_| self.robot.sense().unwrap())
+            .inspect(|sensed| self.model.reckon(&sensed.odometry));
+        readings.flat_map(|sensed| sensed.readings).collect()
     }
 
     fn scan(&mut self, table: impl FnMut(&SegmentFacts) -> Transition) -> Update {
@@ -53,7 +54,7 @@ impl World {
 
     fn go(&mut self, command: Command) {
         self.robot.command(command);
-        while self.robot.sense().is_busy {}
+        while self.robot.sense().unwrap().is_busy {}
     }
 
     /// How far the model's surface in the middle of a piece lies from it; `None` where there is none within 0.5 m.
@@ -251,7 +252,7 @@ fn a_false_wall_is_gone_within_5_scans_after_its_place_is_seen_free() {
         }
         assert!(world.gap(front).is_some_and(|gap| gap < 0.15), "it was a wall after {stays_s} s");
         for _ in 0..15 {
-            world.robot.sense();
+            world.robot.sense().unwrap();
         }
         let gone = (1..=5).find(|_| {
             world.scan(table);
@@ -299,7 +300,7 @@ fn what_was_seen_free_of_a_wall_is_taken_out_of_it() {
     let behind_door = [6.0, 2.3, 6.0, 2.7];
     assert!(world.gap(behind_door).is_some_and(|gap| gap < 0.1));
     for _ in 0..20 {
-        world.robot.sense();
+        world.robot.sense().unwrap();
     }
     for _ in 0..6 {
         world.scan(table);
@@ -331,9 +332,9 @@ fn parts_of_a_turn_on_the_way_keep_the_pose() {
     world.robot.command(Command::Move { distance_m: 8.0, speed_m_s: 0.5 });
     let mut part = Vec::new();
     loop {
-        let sensed = world.robot.sense();
+        let sensed = world.robot.sense().unwrap();
         world.model.reckon(&sensed.odometry);
-        part.push(sensed.reading);
+        part.extend(sensed.readings);
         if part.len() == 30 {
             world.model.update(&std::mem::take(&mut part), sensed.time_s, table);
             let error = world.model.estimate().pose.at.distance(world.robot.pose().at);

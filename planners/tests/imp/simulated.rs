@@ -26,7 +26,7 @@ fn go(robot: &mut Simulator, distance_m: f64) -> Sensed {
 }
 
 fn finish(robot: &mut Simulator) -> Sensed {
-    std::iter::repeat_with(|| robot.sense()).find(|sensed| !sensed.is_busy).unwrap()
+    std::iter::repeat_with(|| robot.sense().unwrap()).find(|sensed| !sensed.is_busy).unwrap()
 }
 
 fn at_x(x: f64, course: Option<Course>) -> Obstacle {
@@ -82,12 +82,13 @@ fn wheels_count_no_farther_than_a_touch() {
 #[test]
 fn an_obstacle_on_its_course_stops_at_the_robot_and_goes_on_when_that_is_gone() {
     let mut robot = robot(vec![at_x(6.0, Some(course(-5.5)))], Settings::exact(), 1);
-    let hit = std::iter::repeat_with(|| robot.sense()).find(|sensed| sensed.contact.is_some()).unwrap();
+    let hit =
+        std::iter::repeat_with(|| robot.sense().unwrap()).find(|sensed| sensed.contact.is_some()).unwrap();
     assert!(hit.contact.unwrap().bearing.abs() < 1e-6);
     assert_eq!(robot.pose().at, Point::new(2.0, 3.0));
     assert!(robot.touches().iter().all(|touch| !touch.by_robot && touch.obstacle == Some(0)));
     for _ in 0..100 {
-        robot.sense();
+        robot.sense().unwrap();
     }
     assert_eq!(robot.touches().len(), 1, "one touch that lasts");
     let left =
@@ -101,7 +102,7 @@ fn an_obstacle_on_its_course_stops_at_the_robot_and_goes_on_when_that_is_gone() 
     }
     assert!(robot.touches().iter().all(|touch| !touch.by_robot));
     for _ in 0..200 {
-        robot.sense();
+        robot.sense().unwrap();
     }
     assert!((left(&robot) - 0.0).abs() < 1e-6, "{}", left(&robot));
 }
@@ -120,7 +121,7 @@ fn whatever_moves_robot_and_obstacle_never_overlap() {
             } else if step % 40 == 20 {
                 robot.command(Command::Move { distance_m: 2.0, speed_m_s: 0.5 });
             }
-            robot.sense();
+            robot.sense().unwrap();
             let at = robot.pose().at;
             let sides = robot.obstacles().flatten().chain(robot.walls());
             let gap = sides.map(|side| side.distance(at)).fold(f64::INFINITY, f64::min) - 0.25;
@@ -132,7 +133,7 @@ fn whatever_moves_robot_and_obstacle_never_overlap() {
 #[test]
 fn the_sonar_turns_by_3_degrees_and_hears_walls_and_obstacles() {
     let mut robot = robot(vec![at_x(5.0, None)], Settings::exact(), 1);
-    let readings: Vec<_> = (0..120).map(|_| robot.sense().reading).collect();
+    let readings: Vec<_> = (0..120).map(|_| robot.sense().unwrap().readings[0]).collect();
     let heard = |place: usize| readings[place].range_m;
     for (place, reading) in (0..).zip(&readings) {
         assert!((wrapped(reading.bearing - f64::from(3 * place).to_radians())).abs() < 1e-9);
@@ -143,7 +144,7 @@ fn the_sonar_turns_by_3_degrees_and_hears_walls_and_obstacles() {
     assert!((heard(75).unwrap() - 2.0 * 2.0_f64.sqrt()).abs() < 1e-9);
     let mut far =
         Simulator::new(&room(), Vec::new(), Settings::exact(), Pose::new(1.0, 3.0, 0.0), 1).unwrap();
-    assert_eq!(far.sense().reading.range_m, None, "a wall at 9 m is beyond hearing");
+    assert_eq!(far.sense().unwrap().readings[0].range_m, None, "a wall at 9 m is beyond hearing");
 }
 
 #[test]
@@ -156,7 +157,7 @@ fn errors_are_as_large_as_the_settings_say() {
         along.push(robot.pose().at.distance(Point::new(2.0, 3.0)) / 4.0 - 1.0);
         turned.push((robot.pose().heading - sensed.odometry.heading).to_degrees());
         for _ in 0..30 {
-            let reading = robot.sense().reading;
+            let reading = robot.sense().unwrap().readings[0];
             let pose = robot.pose();
             let truth = robot.range(pose.at, pose.direction(reading.bearing)).unwrap();
             match reading.range_m {
@@ -187,7 +188,7 @@ fn the_same_seed_gives_the_same_readings_to_the_bit_and_another_gives_others() {
     let run = |seed| {
         let mut robot = robot(vec![at_x(7.0, Some(course(-4.0)))], Settings::default(), seed);
         robot.command(Command::Move { distance_m: 3.0, speed_m_s: 0.4 });
-        (0..300).map(|_| robot.sense()).collect::<Vec<_>>()
+        (0..300).map(|_| robot.sense().unwrap()).collect::<Vec<_>>()
     };
     assert_eq!(run(5), run(5));
     assert_ne!(run(5), run(6));
@@ -235,7 +236,7 @@ fn a_film_shows_robot_obstacles_and_captions_and_is_well_formed() {
     let mut film = Film::new(&robot);
     robot.command(Command::Move { distance_m: 2.0, speed_m_s: 0.5 });
     for step in 0..60 {
-        robot.sense();
+        robot.sense().unwrap();
         let mut frame = robot.frame();
         frame.estimate = Some(Pose { heading: frame.robot.heading + PI, ..frame.robot });
         frame.surfaces = (step % 20 == 0).then(room);

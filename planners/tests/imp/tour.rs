@@ -56,9 +56,9 @@ impl<'t> Drive<'t> {
     fn sense(&mut self, at_least: usize) {
         loop {
             let before = self.robot.pose();
-            let sensed = self.robot.sense();
+            let sensed = self.robot.sense().unwrap();
             self.model.reckon(&sensed.odometry);
-            self.readings.push(sensed.reading);
+            self.readings.extend(sensed.readings);
             if self.readings.len() >= PART.max(at_least) {
                 self.update(sensed.time_s);
             }

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use adit_planners::floor_plan::read_floor_plan;
-use adit_planners::navigation::{Ending, Outfit, draw};
+use adit_planners::navigation::{Drivable, Ending, Outfit, draw};
 
 use super::scene::building;
 use super::table::Table;
@@ -24,7 +24,9 @@ fn what_is_possible_arrives_what_is_not_is_said_and_nothing_is_run_into() {
         for number in 0..MISSIONS {
             let mission = draw(&plan, &building.network, outfit.robot.radius_m, number).unwrap();
             let Some(possible) = mission.possible(&plan, outfit.robot.radius_m) else { continue };
-            let outcome = mission.run(&building.walls, &building, &outfit, &mut Table, |_| {}, None).unwrap();
+            let outcome = mission
+                .run(&Drivable::of(&building.walls, &building), &outfit, None, &mut Table, |_| {}, None)
+                .unwrap();
             let told = format!("{name} {number}: {possible:?} {outcome:?}");
             assert!(outcome.overlap_m < 1e-6, "{told}");
             match outcome.ending {
@@ -36,7 +38,7 @@ fn what_is_possible_arrives_what_is_not_is_said_and_nothing_is_run_into() {
                     refused += 1;
                     assert!(!possible.is_with_room, "{told}");
                 }
-                Ending::Lost | Ending::OutOfPatience => panic!("{told}"),
+                Ending::Lost | Ending::Silent | Ending::OutOfPatience => panic!("{told}"),
             }
         }
     }

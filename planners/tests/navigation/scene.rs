@@ -3,7 +3,7 @@
 use adit_planners::floor_plan::{Disc, Drawn, FloorPlan, Network};
 use adit_planners::geometry::Point;
 use adit_planners::navigation::{
-    Building, Ending, Entry, Happening, Judge, Mission, Outcome, Outfit, ROOM_M, State,
+    Building, Drivable, Ending, Entry, Happening, Judge, Mission, Outcome, Outfit, ROOM_M, State,
 };
 use adit_planners::pose::Pose;
 use adit_planners::simulator::{self, Obstacle};
@@ -88,8 +88,16 @@ pub fn run(mission: &Mission) -> Run {
 pub fn run_with(mission: &Mission, outfit: &Outfit, judge: &mut impl Judge) -> Run {
     let building = building(&two_rooms());
     let mut journal = Vec::new();
-    let outcome =
-        mission.run(&building.walls, &building, outfit, judge, |entry| journal.push(entry), None).unwrap();
+    let outcome = mission
+        .run(
+            &Drivable::of(&building.walls, &building),
+            outfit,
+            None,
+            judge,
+            |entry| journal.push(entry),
+            None,
+        )
+        .unwrap();
     Run { outcome, journal }
 }
 
@@ -124,6 +132,6 @@ impl Run {
 
     /// Where the robot really was when something was told.
     pub fn track(&self) -> impl Iterator<Item = Point> + '_ {
-        self.journal.iter().map(|entry| entry.truth.at)
+        self.journal.iter().filter_map(|entry| Some(entry.truth?.at))
     }
 }

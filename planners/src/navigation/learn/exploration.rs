@@ -84,7 +84,7 @@ impl Exploration {
                 if let Some(Some(film)) = film.as_deref_mut() {
                     film_event(film, &body, &explorer, &event.what);
                 }
-                journal(Entry { event, truth });
+                journal(Entry { event, truth: Some(truth) });
             }
             if let Some(ending) = ending {
                 let (learned, simulated_s) = (explorer.learned(), body.time_s());

@@ -93,7 +93,7 @@ impl Navigator<'_> {
 
     pub(super) fn drive_straight(&mut self, body: &mut impl Body, distance_m: f64) {
         body.command(Command::Move { distance_m, speed_m_s: self.settings.speed_m_s });
-        self.course = self.sensed.map(|sensed| Course { from: sensed.odometry, distance_m });
+        self.course = self.sensed.as_ref().map(|sensed| Course { from: sensed.odometry, distance_m });
         self.readings_standing = 0;
     }
 

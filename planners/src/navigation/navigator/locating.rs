@@ -139,7 +139,7 @@ impl Navigator<'_> {
             return;
         }
         self.model = LocalModel::new(*self.model.settings(), located);
-        if let Some(sensed) = self.sensed {
+        if let Some(sensed) = &self.sensed {
             self.model.reckon(&sensed.odometry);
             self.model.set_estimate(located);
         }

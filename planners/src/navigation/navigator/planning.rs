@@ -100,7 +100,7 @@ impl Navigator<'_> {
     pub(super) fn retry(&mut self, judge: &mut impl Judge) {
         let estimate = *self.model.estimate();
         self.model = LocalModel::new(*self.model.settings(), estimate);
-        if let Some(sensed) = self.sensed {
+        if let Some(sensed) = &self.sensed {
             self.model.reckon(&sensed.odometry);
             self.model.set_estimate(estimate);
         }

@@ -91,7 +91,7 @@ impl Navigator<'_> {
 
     /// Whether the robot has to be in another shape before it goes on.
     pub(super) fn is_changing(&self) -> bool {
-        !self.legs.is_empty() && self.sensed.is_some_and(|sensed| sensed.shape != self.needed)
+        !self.legs.is_empty() && self.sensed.as_ref().is_some_and(|sensed| sensed.shape != self.needed)
     }
 
     /// What was met and leaves no room for the shape in which the robot has to be before it goes on.

@@ -1,41 +1,44 @@
 //! What the robot senses, taken into the model.
 
 use super::{Navigator, TRACK_M, TRACK_POINTS};
-use crate::body::Body;
+use crate::body::{Body, Silence};
 use crate::geometry::Segment;
 use crate::navigation::event::Happening;
 use crate::navigation::judge::{Judge, State};
 use crate::navigation::known::moving;
 
 impl Navigator<'_> {
-    pub(super) fn sense(&mut self, body: &mut impl Body, judge: &mut impl Judge) {
-        let before = self.sensed.and_then(|sensed| sensed.contact);
-        let sensed = body.sense();
-        self.radius_m = body.radius_m();
+    pub(super) fn sense(&mut self, body: &mut impl Body, judge: &mut impl Judge) -> Result<(), Silence> {
+        let before = self.sensed.as_ref().and_then(|sensed| sensed.contact);
+        let mut sensed = body.sense()?;
+        (self.radius_m, self.directions) = (body.radius_m(), body.directions());
         self.model.reckon(&sensed.odometry);
         let is_held = !sensed.is_busy && self.course.is_some_and(|course| course.is_held(&sensed));
         let touch = sensed.contact.filter(|_| before.is_none() || is_held);
+        let (time_s, shape) = (sensed.time_s, sensed.shape);
+        self.readings_standing =
+            if sensed.is_busy { 0 } else { self.readings_standing + sensed.readings.len() };
+        self.part.append(&mut sensed.readings);
         self.sensed = Some(sensed);
-        self.take_shape(sensed.shape);
+        self.take_shape(shape);
         self.keep_track();
-        self.part.push(sensed.reading);
-        self.readings_standing = if sensed.is_busy { 0 } else { self.readings_standing + 1 };
         if let Some(contact) = touch {
             // What runs into a robot that stands, or goes elsewhere, is in the model then, and no reason to stop.
             let is_ahead = self.course.is_some_and(|course| course.leads_to(contact));
             if is_held || is_ahead || self.state == State::Turn {
                 self.contact = self.contact.or(Some(contact));
-                self.felt.push((sensed.time_s, self.model.surface_at(&contact, self.radius_m)));
+                self.felt.push((time_s, self.model.surface_at(&contact, self.radius_m)));
             }
             self.model.touched(&contact, self.radius_m, |facts| judge.segment(facts));
             self.gather();
             self.tell(Happening::Contact { bearing: contact.bearing });
         }
         let is_standing = self.readings_standing > 0;
-        let most = if is_standing { self.settings.scan_readings } else { self.settings.part_readings };
+        let most = if is_standing { self.scan_readings() } else { self.part_readings() };
         if self.part.len() >= most {
             self.update(judge);
         }
+        Ok(())
     }
 
     /// Remembers where the robot came from, the latest part of it.
@@ -57,7 +60,7 @@ impl Navigator<'_> {
         let update = self.model.update(&part, self.time_s(), |facts| judge.segment(facts));
         self.memory.note(&self.model, &self.building.walls, &self.settings);
         self.gather();
-        if let (Some(seen), Some(sensed)) = (&mut self.seen, self.sensed) {
+        if let (Some(seen), Some(sensed)) = (&mut self.seen, &self.sensed) {
             let pose = self.model.estimate().pose;
             seen.look(&part, &pose, &sensed.odometry, self.radius_m, &self.barriers);
         }

@@ -27,7 +27,7 @@ impl Navigator<'_> {
             is_obstacle_moving,
             is_contact: self.contact.is_some(),
             back_offs: self.back_offs,
-            is_busy: self.sensed.is_some_and(|sensed| sensed.is_busy),
+            is_busy: self.sensed.as_ref().is_some_and(|sensed| sensed.is_busy),
             is_changing: self.is_changing(),
             has_room: self.met_beside_change().is_none(),
             is_scan_complete: self.is_scan_complete(),
@@ -67,7 +67,7 @@ impl Navigator<'_> {
 
     /// Metres ahead that are free by readings that are not in the model yet.
     pub(super) fn echo_m(&self, target: Option<Point>) -> f64 {
-        let (Some(target), Some(sensed)) = (target, self.sensed) else { return 0.0 };
+        let (Some(target), Some(sensed)) = (target, &self.sensed) else { return 0.0 };
         let pose = self.pose();
         let distance = pose.at.distance(target);
         let heading = pose.bearing(target);

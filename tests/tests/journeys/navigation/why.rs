@@ -9,7 +9,7 @@ fn the_last_stop_is_explained_by_the_row_that_decided_and_by_what_kept_the_other
     let answer = on(&folder, "why", "missions.db", &["1"]).expect_status(0).stdout;
     for said in [
         "mission 1 of flat, ",
-        "it ended: arrived",
+        "it arrived",
         "from (1.50, 1.50) to (",
         ": decide -> hold",
         "because of decide, row 11 (line ",
@@ -32,7 +32,7 @@ fn a_mission_without_a_way_is_explained_by_what_said_so() {
         assert_eq!(rows[0]["ending"], "no_way", "{rows}");
         let answer = on(&folder, "why", "missions.db", &["1"]).expect_status(0).stdout;
         for said in
-            [": blocked -> hold, no way", "it ended: no way", "because of blocked, row 14", "has_way false"]
+            [": blocked -> hold, no way", "it found no way", "because of blocked, row 14", "has_way false"]
         {
             assert!(answer.contains(said), "`{said}` is not in:\n{answer}");
         }

@@ -1,0 +1,24 @@
+//! Ways that a knowledge base finds, and what a robot tells it of those that are closed.
+
+use super::stretch::Stretch;
+use crate::geometry::{Point, Segment};
+
+/// Where the robot found its way closed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Met {
+    /// Where what it met stands, as it thinks.
+    pub at: Point,
+    /// Where it was heading: radians, counter-clockwise from the x axis.
+    pub heading: f64,
+    /// What it saw there, and did not know of. Where there is nothing, the way that is known is too narrow for it.
+    pub seen: Vec<Segment>,
+}
+
+/// Finds ways for a robot.
+pub trait Router {
+    /// The best way from where a robot is, in a shape, to its goal; `None` where there is none.
+    ///
+    /// # Arguments
+    /// `met` is where the robot found its way closed, the latest last; none of it any more after it has begun anew.
+    fn way(&mut self, from: Point, shape: usize, met: &[Met]) -> Option<Vec<Stretch>>;
+}
