@@ -29,7 +29,8 @@ pub fn run<B: Body>(
     loop {
         if let (true, Some(router)) = (navigator.wants_way(), router.as_deref_mut()) {
             let way = router.way(navigator.estimate().pose.at, navigator.shape(), &met);
-            let way = way.map(|way| with_room(way, navigator.shapes(), navigator.settings()));
+            let way = way
+                .map(|way| with_room(way, navigator.shapes(), &navigator.surfaces(), navigator.settings()));
             navigator.take_way(way, met.is_empty());
         }
         let ending = navigator.step(body, judge);

@@ -28,17 +28,22 @@ const MOVES: usize = 4;
 /// not lead nearer to anything else.
 ///
 /// # Arguments
-/// `shapes` is the building as it is for the robot in each shape.
-pub(super) fn with_room(mut way: Vec<Stretch>, shapes: &[Building], settings: &Settings) -> Vec<Stretch> {
+/// `shapes` is the building as it is for the robot in each shape, `met` what it met there and did not know of.
+pub(super) fn with_room(
+    mut way: Vec<Stretch>,
+    shapes: &[Building],
+    met: &[Segment],
+    settings: &Settings,
+) -> Vec<Stretch> {
     way.retain(|stretch| shapes.get(stretch.shape).is_some());
     for next in 1..way.len() {
         let (before, after) = way.split_at_mut(next);
         if let (Some(one), Some(other)) = (before.last_mut(), after.first_mut()) {
-            change_with_room(one, other, shapes, settings);
+            change_with_room(one, other, (shapes, met), settings);
         }
     }
     for stretch in &mut way {
-        let near = Near::of(&shapes[stretch.shape], &stretch.points, settings);
+        let near = Near::of((&shapes[stretch.shape], met), &stretch.points, settings);
         for place in 1..stretch.points.len().saturating_sub(1) {
             near.move_away(&mut stretch.points, place, settings.detour_room_m);
         }
@@ -49,12 +54,17 @@ pub(super) fn with_room(mut way: Vec<Stretch>, shapes: &[Building], settings: &S
 
 /// Moves the point at which one stretch goes over into the other to the nearest one at which there is room for both shapes; to the
 /// one with most room, where there is not enough anywhere near.
-fn change_with_room(one: &mut Stretch, other: &mut Stretch, shapes: &[Building], settings: &Settings) {
+fn change_with_room(
+    one: &mut Stretch,
+    other: &mut Stretch,
+    (shapes, met): (&[Building], &[Segment]),
+    settings: &Settings,
+) {
     let Some(&change) = one.points.last() else { return };
     let before = one.points.iter().rev().nth(1).copied().unwrap_or(change);
     let after = other.points.get(1).copied().unwrap_or(change);
-    let [near_one, near_other] =
-        [&one, &other].map(|stretch| Near::of(&shapes[stretch.shape], &[before, change, after], settings));
+    let [near_one, near_other] = [&one, &other]
+        .map(|stretch| Near::of((&shapes[stretch.shape], met), &[before, change, after], settings));
     let need = settings.change_room_m;
     let room = |at: Point| near_one.gap(at, at).min(near_other.gap(at, at)).min(need);
     // straight there, or by way of where the route changes; as near to things as the route itself, or as ways may be
@@ -100,14 +110,14 @@ struct Near {
 }
 
 impl Near {
-    fn of(building: &Building, points: &[Point], settings: &Settings) -> Self {
+    fn of((building, met): (&Building, &[Segment]), points: &[Point], settings: &Settings) -> Self {
         let radius_m = building.network.disc.radius;
         let reach = radius_m + settings.change_room_m.max(settings.detour_room_m) + settings.change_reach_m;
         let is_near = |barrier: &&Segment| {
             points.windows(2).any(|leg| Segment::new(leg[0], leg[1]).gap(barrier) <= reach)
                 || points.first().is_some_and(|at| barrier.distance(*at) <= reach)
         };
-        let all = building.walls.iter().chain(&building.overhead);
+        let all = building.walls.iter().chain(&building.overhead).chain(met);
         Self { radius_m, barriers: all.filter(is_near).copied().collect() }
     }
 
@@ -180,7 +190,7 @@ mod tests {
         let at = |x: f64| Point::new(x, y);
         let stretch = |shape, from: f64, to: f64| Stretch { shape, points: vec![at(from), at(to)] };
         let way = vec![stretch(0, 1.0, 3.7), stretch(1, 3.7, 5.3), stretch(0, 5.3, 9.0)];
-        with_room(way, &shapes, &Settings::default())
+        with_room(way, &shapes, &[], &Settings::default())
     }
 
     #[test]
@@ -200,11 +210,23 @@ mod tests {
     }
 
     #[test]
+    fn a_bend_about_what_was_met_stays() {
+        let met = [line(4.0, 0.6, 5.0, 0.6)];
+        let points = vec![Point::new(1.0, 0.6), Point::new(4.5, 1.1), Point::new(8.0, 0.6)];
+        let way = vec![Stretch { shape: 0, points }];
+        let bends = |met: &[Segment]| {
+            let way = with_room(way.clone(), &[building(0.3, Vec::new())], met, &Settings::default());
+            way[0].points.len() - 2
+        };
+        assert_eq!((bends(&[]), bends(&met)), (0, 1));
+    }
+
+    #[test]
     fn a_bend_keeps_room_about_a_corner() {
         let corner = line(5.0, 0.0, 5.0, 1.0);
         let building = Building { overhead: vec![corner], ..building(0.3, Vec::new()) };
         let points = vec![Point::new(2.0, 0.5), Point::new(5.0, 1.3), Point::new(8.0, 0.5)];
-        let way = with_room(vec![Stretch { shape: 0, points }], &[building], &Settings::default());
+        let way = with_room(vec![Stretch { shape: 0, points }], &[building], &[], &Settings::default());
         assert!(way[0].points[1].distance(Point::new(5.0, 1.4)) < 1e-9, "{way:?}");
     }
 }
