@@ -50,6 +50,14 @@ fn closed(state: &State, of: &(String, String)) -> Vec<Segment> {
     doorways.chain(outlines).collect()
 }
 
+/// Where the middle of a robot may be in a state.
+fn floor(state: &State, of: &(String, String)) -> Vec<Vec<Point>> {
+    let graph = state.graph();
+    let rooms = graph.rooms.iter().enumerate();
+    let own = rooms.filter(|(_, room)| room.layer.as_ref() == Some(of) && is_weighed(room));
+    own.map(|(index, _)| graph.outline(RoomIndex::new(index)).corners().collect()).collect()
+}
+
 impl Ground {
     /// The site as it is now, for one of its robots.
     pub fn of(state: &State, robot: Option<&str>) -> Result<Self> {
@@ -115,6 +123,7 @@ impl Ground {
         let network = Network::none(Disc { radius, margin: 0.0 });
         self.buildings.push(Building {
             overhead: sides,
+            floor: floor(state, &of),
             closed: closed(state, &of),
             ..Building::of_walls(network, self.walls.clone())
         });

@@ -77,10 +77,12 @@ fn told(what: &Happening, shapes: &[String]) -> Told {
         Happening::Detour { points: way, length_m, other_m } => {
             ("detour", None, Some(json!({"points": points(way), "length": length_m, "other": other_m})))
         }
-        Happening::WayClosed { at, doorway, region, seen } => {
+        Happening::WayClosed { at, doorway, region, is_known, seen } => {
             let seen: Vec<[f64; 4]> =
                 seen.iter().map(|line| [line.a.x, line.a.y, line.b.x, line.b.y]).collect();
-            let detail = json!({"at": [at.x, at.y], "doorway": doorway, "region": region, "seen": seen});
+            let at = [at.x, at.y];
+            let detail =
+                json!({"at": at, "doorway": doorway, "region": region, "known": is_known, "seen": seen});
             ("way closed", None, Some(detail))
         }
         Happening::Forbidden { doorways } => ("doorways closed", None, Some(json!({"doorways": doorways}))),

@@ -30,7 +30,6 @@ const HAIR_M: f64 = 1e-3;
 struct Site<'l> {
     live: &'l mut Live,
     ground: &'l Ground,
-    goal: String,
     mission: usize,
     /// When it began: what was laid on another run under the same number is another thing.
     begun: String,
@@ -46,8 +45,8 @@ struct Site<'l> {
 }
 
 impl Router for Site<'_> {
-    fn way(&mut self, from: Point, shape: usize, met: &[Met]) -> Option<Vec<Stretch>> {
-        let way = self.found(from, shape, met);
+    fn way(&mut self, ends: [Point; 2], shape: usize, met: &[Met]) -> Option<Vec<Stretch>> {
+        let way = self.found(ends, shape, met);
         way.unwrap_or_else(|error| {
             self.trouble.get_or_insert(error);
             None
@@ -56,7 +55,8 @@ impl Router for Site<'_> {
 }
 
 impl Site<'_> {
-    fn found(&mut self, from: Point, shape: usize, met: &[Met]) -> Result<Option<Vec<Stretch>>> {
+    fn found(&mut self, [from, to]: [Point; 2], shape: usize, met: &[Met]) -> Result<Option<Vec<Stretch>>> {
+        let goal = named_point(to);
         let things = self.things(met, from);
         let mut edits = Vec::new();
         if self.tells {
@@ -67,16 +67,24 @@ impl Site<'_> {
             };
             edits.extend((1..).zip(&things).map(lay));
         }
-        // where it saw nothing, the way is too narrow for it, though nobody else need find it so
-        let world = self.live.view();
-        let is_floor = |met: &&Met| !world.world().is_solid(met.at);
-        let narrow = met.iter().filter(|met| met.seen.is_empty()).filter(is_floor).map(named);
+        // Where what it met is known, the way is too narrow for it, though nobody else need find it so: what stands there stands
+        // nearer, so that a shape with more room goes through; where nothing stands, it comes through in none.
+        let stands_there = |at: Point| self.ground.walls.iter().any(|wall| wall.distance(at) <= HAIR_M);
+        let known = met.iter().enumerate().filter(|(_, met)| met.is_known);
+        let (stands, narrow): (Vec<_>, Vec<_>) = known.partition(|(_, met)| stands_there(met.at));
+        let nearer = stands.iter().map(|(number, one)| {
+            let corner = Segment::new(one.at, one.at);
+            grown_by(&corner, self.thickness(&met[..*number], one))
+        });
+        edits.extend(nearer.enumerate().map(|(number, thing)| {
+            Edit::Lay(laid(format!("narrow in this mission, {}", number + 1), &thing))
+        }));
         let errand = Errand {
-            avoid: narrow.collect(),
+            avoid: narrow.into_iter().map(|(_, met)| named(met)).collect(),
             start_state: Some(self.ground.states[shape].clone()),
             ..Errand::default()
         };
-        let ask = |errand: &Errand| asked(self.live, &edits, (from, &self.goal), errand, &self.ground.robot);
+        let ask = |errand: &Errand| asked(self.live, &edits, (from, &goal), errand, &self.ground.robot);
         let mut answer = ask(&errand)?;
         if answer.cost.is_none() {
             // where its shape does not fit by what it saw, another one may
@@ -88,18 +96,21 @@ impl Site<'_> {
     /// What the robot saw and did not know of, as outlines of things that stand on the map; none stands where the robot does, or
     /// on a place. Where it was in the way again, though the route left room for it, it is taken to be thicker.
     fn things(&self, met: &[Met], from: Point) -> Vec<Vec<Point>> {
-        let settings = &self.ground.settings;
         let places = self.ground.plan.places().iter().map(|place| place.at);
         let clear: Vec<Point> = places.chain([from]).collect();
         let thick = |(number, one): (usize, &Met)| {
-            let before =
-                met[..number].iter().filter(|other| other.at.distance(one.at) <= settings.same_spot_m);
-            let grown = settings.squeeze_m * 2f64.powi(before.count() as i32);
-            let grown = grown.min(settings.detour_room_m);
+            let grown = self.thickness(&met[..number], one);
             let seen = one.seen.iter().flat_map(|surface| beside(surface, grown, &clear));
             seen.map(|surface| grown_by(&surface, grown)).collect::<Vec<_>>()
         };
         things(met.iter().enumerate().flat_map(thick), &clear)
+    }
+
+    /// How much thicker than it was seen something is taken to be, metres: twice as much each time that it was in the way again.
+    fn thickness(&self, before: &[Met], met: &Met) -> f64 {
+        let settings = &self.ground.settings;
+        let again = before.iter().filter(|other| other.at.distance(met.at) <= settings.same_spot_m).count();
+        (settings.squeeze_m * 2f64.powi(again as i32)).min(settings.detour_room_m)
     }
 
     /// Lays over the map what was met, and lifts what the robot no longer believes to be there.
@@ -202,9 +213,14 @@ fn asked(
     errand: &Errand,
     robot: &str,
 ) -> Result<Answer> {
-    let start = format!("{:?},{:?}", from.x, from.y);
+    let start = named_point(from);
     let state = live.fork().within(Some(OFF_M))?;
     state.route_after(edits, errand, (&start, &[goal.to_owned()]), Some(robot))
+}
+
+/// As ends of routes name it.
+fn named_point(at: Point) -> String {
+    format!("{:?},{:?}", at.x, at.y)
 }
 
 /// As closings name it: the point, and the degrees into which the robot looked.
@@ -231,34 +247,40 @@ impl Missions<'_> {
     /// Missions drawn by chance, with up to five boxes that the robot does not know.
     pub fn drawn(&self, count: usize, seed: u64) -> Result<Vec<Mission>> {
         let radius = self.ground.least_radius();
-        let of = |number: usize| {
-            // Far apart, so that seeds that lie together give different missions.
-            let seed = seed.wrapping_add((number as u64 + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15));
-            let mut trouble = None;
-            let mission =
-                draw_along(&self.ground.plan, &self.ground.doorways, radius, seed, |start, goal| {
-                    let goal = format!("{:?},{:?}", goal.x, goal.y);
-                    match asked(self.live, &[], (start, &goal), &Errand::default(), &self.ground.robot) {
-                        Ok(answer) => {
-                            let way = self.ground.stretches(&answer)?;
-                            Some(way.into_iter().flat_map(|stretch| stretch.points).collect())
+        let of =
+            |number: usize| {
+                // Far apart, so that seeds that lie together give different missions.
+                let seed = seed.wrapping_add((number as u64 + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15));
+                let mut trouble = None;
+                let mission =
+                    draw_along(&self.ground.plan, &self.ground.doorways, radius, seed, |start, goal| {
+                        match asked(
+                            self.live,
+                            &[],
+                            (start, &named_point(goal)),
+                            &Errand::default(),
+                            &self.ground.robot,
+                        ) {
+                            Ok(answer) => {
+                                let way = self.ground.stretches(&answer)?;
+                                Some(way.into_iter().flat_map(|stretch| stretch.points).collect())
+                            }
+                            Err(error) => {
+                                trouble.get_or_insert(error);
+                                None
+                            }
                         }
-                        Err(error) => {
-                            trouble.get_or_insert(error);
-                            None
-                        }
+                    });
+                match (mission, trouble) {
+                    (Some(mission), _) => Ok(mission),
+                    (None, Some(trouble)) => Err(trouble),
+                    (None, None) => {
+                        let message =
+                            "the site has no room for missions: start and goal need some metres between them";
+                        Err(Error::said(Code::SimulateNoRoom, message, None))
                     }
-                });
-            match (mission, trouble) {
-                (Some(mission), _) => Ok(mission),
-                (None, Some(trouble)) => Err(trouble),
-                (None, None) => {
-                    let message =
-                        "the site has no room for missions: start and goal need some metres between them";
-                    Err(Error::said(Code::SimulateNoRoom, message, None))
                 }
-            }
-        };
+            };
         (0..count).map(of).collect()
     }
 
@@ -272,7 +294,7 @@ impl Missions<'_> {
         film: Option<&mut Option<Film>>,
     ) -> Result<(Journal, Vec<String>)> {
         let before = Instant::now();
-        let (ground, goal) = (self.ground, format!("{:?},{:?}", mission.goal.x, mission.goal.y));
+        let (ground, goal) = (self.ground, named_point(mission.goal));
         let first = asked(self.live, &[], (mission.start.at, &goal), &Errand::default(), &ground.robot)?;
         let shape = self.first_shape(&first, mission.start.at)?;
         let judged = self.judged(mission, &goal, shape)?;
@@ -284,7 +306,6 @@ impl Missions<'_> {
         let mut site = Site {
             live: self.live,
             ground,
-            goal,
             mission: number,
             begun,
             tells: self.tells,

@@ -55,6 +55,8 @@ pub enum Happening {
         doorway: Option<usize>,
         /// The region in which that is, by index, where it is in no doorway.
         region: Option<usize>,
+        /// Whether what stands there is known: the way is too narrow for where the robot thinks that it is.
+        is_known: bool,
         /// What was seen to stand there, and is no part of the building that is known.
         seen: Vec<Segment>,
     },

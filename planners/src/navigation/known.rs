@@ -13,6 +13,8 @@ pub struct Building {
     pub walls: Vec<Segment>,
     /// What the robot does not fit beneath; no sonar hears it.
     pub overhead: Vec<Segment>,
+    /// Where the middle of the robot may be, in convex pieces, if that is known beside the network.
+    pub floor: Vec<Vec<Point>>,
     /// What nobody may cross, though nothing is there. A way that is given to the robot keeps off it; its detours do, too.
     pub closed: Vec<Segment>,
 }
@@ -25,7 +27,7 @@ impl Building {
 
     /// Walls, and nothing that a sonar does not hear.
     pub fn of_walls(network: Network, walls: Vec<Segment>) -> Self {
-        Self { network, walls, overhead: Vec::new(), closed: Vec::new() }
+        Self { network, walls, overhead: Vec::new(), floor: Vec::new(), closed: Vec::new() }
     }
 
     /// A building of which nothing is known, for a robot.

@@ -10,15 +10,18 @@ pub struct Met {
     pub at: Point,
     /// Where it was heading: radians, counter-clockwise from the x axis.
     pub heading: f64,
-    /// What it saw there, and did not know of. Where there is nothing, the way that is known is too narrow for it.
+    /// Whether what it met is known to stand there: the way is too narrow for it.
+    pub is_known: bool,
+    /// What it saw there, and did not know of.
     pub seen: Vec<Segment>,
 }
 
 /// Finds ways for a robot.
 pub trait Router {
-    /// The best way from where a robot is, in a shape, to its goal; `None` where there is none.
+    /// The best way for a robot in a shape, from where it is to its goal, or to where it can tell where it is; `None` where there is
+    /// none.
     ///
     /// # Arguments
     /// `met` is where the robot found its way closed, the latest last; none of it any more after it has begun anew.
-    fn way(&mut self, from: Point, shape: usize, met: &[Met]) -> Option<Vec<Stretch>>;
+    fn way(&mut self, ends: [Point; 2], shape: usize, met: &[Met]) -> Option<Vec<Stretch>>;
 }

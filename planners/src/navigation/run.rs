@@ -27,8 +27,8 @@ pub fn run<B: Body>(
     }
     let mut met: Vec<Met> = Vec::new();
     loop {
-        if let (true, Some(router)) = (navigator.wants_way(), router.as_deref_mut()) {
-            let way = router.way(navigator.estimate().pose.at, navigator.shape(), &met);
+        if let (Some(to), Some(router)) = (navigator.wants_way(), router.as_deref_mut()) {
+            let way = router.way([navigator.estimate().pose.at, to], navigator.shape(), &met);
             let way = way
                 .map(|way| with_room(way, navigator.shapes(), &navigator.surfaces(), navigator.settings()));
             navigator.take_way(way, met.is_empty());
@@ -37,9 +37,9 @@ pub fn run<B: Body>(
         let events = navigator.take_events();
         for event in &events {
             match &event.what {
-                Happening::WayClosed { at, seen, .. } => {
+                Happening::WayClosed { at, is_known, seen, .. } => {
                     let heading = heading(event.pose, *at);
-                    met.push(Met { at: *at, heading, seen: seen.clone() });
+                    met.push(Met { at: *at, heading, is_known: *is_known, seen: seen.clone() });
                 }
                 Happening::Retried => met.clear(),
                 _ => {}

@@ -53,10 +53,10 @@ impl Corridor {
 /// Says the same of every question, from where the robot is.
 struct Says<F>(F, Vec<Vec<Met>>);
 
-impl<F: FnMut(Point, usize, &[Met]) -> Option<Vec<Stretch>>> Router for Says<F> {
-    fn way(&mut self, from: Point, shape: usize, met: &[Met]) -> Option<Vec<Stretch>> {
+impl<F: FnMut([Point; 2], usize, &[Met]) -> Option<Vec<Stretch>>> Router for Says<F> {
+    fn way(&mut self, ends: [Point; 2], shape: usize, met: &[Met]) -> Option<Vec<Stretch>> {
         self.1.push(met.to_vec());
-        (self.0)(from, shape, met)
+        (self.0)(ends, shape, met)
     }
 }
 
@@ -94,14 +94,15 @@ fn the_robot_goes_on_its_knees_beneath_a_pipe_and_gets_up_behind_it() {
 fn who_stays_upright_does_not_get_through_and_who_gets_up_too_early_is_seen_to() {
     let corridor = Corridor::new();
     let there = mission([1.0, 1.5], [9.0, 1.5], Vec::new());
-    let upright = |from: Point, _, _: &[Met]| Some(vec![stretch(UPRIGHT, &[[from.x, from.y], [9.0, 1.5]])]);
+    let upright =
+        |[from, _]: [Point; 2], _, _: &[Met]| Some(vec![stretch(UPRIGHT, &[[from.x, from.y], [9.0, 1.5]])]);
     let went = corridor.run(&there, &mut Says(upright, Vec::new()));
     assert_eq!(went.ending, Ending::NoWay);
     assert!(went.track.iter().all(|at| at.0.x < 3.71) && went.overlap_m < 1e-6, "{went:?}");
 
     let mut blind = Corridor::new();
     blind.buildings[UPRIGHT].overhead.clear();
-    let early = |from: Point, shape, _: &[Met]| {
+    let early = |[from, _]: [Point; 2], shape, _: &[Met]| {
         let here = [from.x, from.y];
         Some(match shape {
             UPRIGHT if from.x < 4.0 => vec![
@@ -120,7 +121,7 @@ fn where_a_box_shuts_the_corridor_it_says_what_it_saw_and_once_it_has_begun_anew
     let corridor = Corridor::new();
     let shut = mission([1.0, 1.5], [3.0, 1.5], vec![stands(2.2, 1.5, 0.3, 2.9)]);
     let mut router = Says(
-        |from: Point, _, met: &[Met]| {
+        |[from, _]: [Point; 2], _, met: &[Met]| {
             met.is_empty().then(|| vec![stretch(UPRIGHT, &[[from.x, from.y], [3.0, 1.5]])])
         },
         Vec::new(),
@@ -143,7 +144,8 @@ fn where_a_box_shuts_the_corridor_it_says_what_it_saw_and_once_it_has_begun_anew
 #[test]
 fn a_detour_does_not_lead_over_what_is_closed() {
     let there = mission([1.0, 1.5], [3.5, 1.5], vec![stands(2.2, 1.5, 0.3, 0.3)]);
-    let straight = |from: Point, _, _: &[Met]| Some(vec![stretch(UPRIGHT, &[[from.x, from.y], [3.5, 1.5]])]);
+    let straight =
+        |[from, _]: [Point; 2], _, _: &[Met]| Some(vec![stretch(UPRIGHT, &[[from.x, from.y], [3.5, 1.5]])]);
     for (from, to, is_below) in [(1.7, 2.9, true), (0.1, 1.3, false)] {
         let mut corridor = Corridor::new();
         let line = Segment::new(Point::new(2.2, from), Point::new(2.2, to));
@@ -163,7 +165,7 @@ fn a_detour_does_not_lead_over_what_is_closed() {
 fn it_does_not_change_its_shape_where_something_that_it_met_leaves_no_room() {
     let corridor = Corridor::new();
     let beside = mission([1.0, 1.5], [3.4, 1.5], vec![stands(2.5, 0.95, 0.5, 0.3)]);
-    let way = |from: Point, shape, met: &[Met]| {
+    let way = |[from, _]: [Point; 2], shape, met: &[Met]| {
         let here = [from.x, from.y];
         let at = if met.is_empty() { 1.42 } else { 2.0 };
         let kneels = [stretch(UPRIGHT, &[here, [2.5, at]]), stretch(KNEELING, &[[2.5, at], [3.4, 1.5]])];

@@ -33,7 +33,7 @@
 //! | Decide  | is_aside without doubt                                 | Decide  | Resume   |
 //! | Decide  | is_changing                                            | Hold    |          |
 //! | Decide  | Unsure, distance_m <= goal_tolerance_m, seeks < most   | Decide  | Seek     |
-//! | Decide  | Unsure, distance_m <= goal_tolerance_m                 | Hold    | Lost     |
+//! | Decide  | Unsure, distance_m <= goal_tolerance_m, is_last        | Hold    | Lost     |
 //! | Decide  | distance_m <= goal_tolerance_m                         | Hold    |          |
 //! | Decide  | is_contact                                             | Blocked |          |
 //! | Decide  | free_m < reach                                         | Blocked |          |
@@ -167,7 +167,9 @@ fn row(facts: &StateFacts) -> (State, Action) {
         State::Decide if doubt == Doubt::Unsure && is_there && may_seek => {
             return (State::Decide, Action::Seek);
         }
-        State::Decide if doubt == Doubt::Unsure && is_there => return (State::Hold, Action::Lost),
+        State::Decide if doubt == Doubt::Unsure && is_there && facts.is_last => {
+            return (State::Hold, Action::Lost);
+        }
         State::Decide if is_there => State::Hold,
         State::Decide if facts.is_contact || facts.free_m < reach => State::Blocked,
         State::Decide if !is_turned => State::Turn,

@@ -4,11 +4,11 @@ use std::cmp::Ordering;
 
 use super::Navigator;
 use crate::body::Reading;
-use crate::geometry::{Point, path_length};
+use crate::geometry::{Point, path_length, polygon};
 use crate::local_model::{Candidate, Estimate, KnownWalls, LocalModel, Recognition, Scan};
 use crate::navigation::cuts::Blocked;
 use crate::navigation::event::Happening;
-use crate::navigation::judge::Judge;
+use crate::navigation::judge::{Judge, Mode};
 use crate::navigation::known::{Building, Memory};
 use crate::navigation::route::over_network;
 use crate::pose::{Pose, wrapped};
@@ -164,8 +164,13 @@ impl Navigator<'_> {
             over_network(self.building, self.ground(barriers), &self.blocked, [at, *place], judge)
                 .map(|route| (path_length(&route.points), *place))
         };
-        let ways = places.iter().take(NEAREST).filter_map(route);
-        let nearest = ways.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, place)| place);
+        let nearest = if self.mode == Mode::Route {
+            // the way there is somebody else's to find
+            places.first().copied()
+        } else {
+            let ways = places.iter().take(NEAREST).filter_map(route);
+            ways.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, place)| place)
+        };
         self.whereabouts.sought.push(nearest.unwrap_or(at));
         if let Some(place) = nearest {
             self.whereabouts.aside = nearest;
@@ -182,7 +187,11 @@ impl Navigator<'_> {
 
     fn take_views(&mut self) {
         let regions = &self.building.network.regions.regions;
-        let is_free = |at: Point| regions.iter().any(|region| region.contains(at));
+        let floor = &self.building.floor;
+        let is_free = |at: Point| {
+            regions.iter().any(|region| region.contains(at))
+                || floor.iter().any(|piece| polygon::is_in_convex(piece, at, 0.0))
+        };
         self.whereabouts.walls.look_from(is_free, self.radius_m, self.model.settings());
     }
 }

@@ -72,11 +72,13 @@ impl Navigator<'_> {
             let stop = at.lerp(target, share);
             let met = free.by.map(|by| self.barriers[by]);
             let at = met.map_or(stop, |barrier| stop.nearest_on(barrier.a, barrier.b));
-            let at = self.met_beside_change().map_or(at, |met| met.nearest_to(self.pose().at));
+            let is_known = free.by.is_some_and(|by| by < self.obstacles_from);
+            let beside = self.met_beside_change().map(|met| met.nearest_to(self.pose().at));
+            let (at, is_known) = (beside.unwrap_or(at), is_known && beside.is_none());
             let (doorway, region) = self.blocked.note(&self.building.network, at, reach);
             let mut seen = self.obstacles(1);
             seen.retain(|surface| surface.distance(at) <= self.settings.detour_reach_m);
-            self.tell(Happening::WayClosed { at, doorway, region, seen });
+            self.tell(Happening::WayClosed { at, doorway, region, is_known, seen });
         }
         self.replans += 1;
         self.ask_for_doorways(judge);
@@ -137,7 +139,7 @@ impl Navigator<'_> {
     /// Looks for a path to the goal over the network; through free space as it is known where that has none.
     pub(super) fn plan(&mut self, judge: &mut impl Judge, is_off_network: bool) {
         let Some(goal) = self.whereabouts.aside.or(self.goal) else { return };
-        if self.mode == Mode::Route && self.whereabouts.aside.is_none() {
+        if self.mode == Mode::Route {
             return self.ask_for_way();
         }
         let ends = [self.pose().at, goal];

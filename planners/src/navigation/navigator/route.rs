@@ -19,16 +19,20 @@ impl Navigator<'_> {
         self.ask_for_way();
     }
 
-    /// Whether it waits for a way to be given to it: at first, and where the one that it had is closed.
-    pub fn wants_way(&self) -> bool {
-        self.wants_way
+    /// Where it waits for a way to be given to it to: at first, and where the one that it had is closed.
+    pub fn wants_way(&self) -> Option<Point> {
+        self.whereabouts.aside.or(self.goal).filter(|_| self.wants_way)
     }
 
-    /// Takes a way to the goal from where it is; `None` where there is none.
+    /// Takes a way from where it is; `None` where there is none. Where there is none to where it could tell where it is, it goes on to
+    /// its goal.
     ///
     /// # Arguments
     /// `is_shut` is whether there is none even if nothing that the robot met is in the way.
     pub fn take_way(&mut self, way: Option<Vec<Stretch>>, is_shut: bool) {
+        if way.is_none() && self.whereabouts.aside.take().is_some() {
+            return self.ask_for_way();
+        }
         (self.wants_way, self.has_way, self.is_shut) = (false, way.is_some(), is_shut && way.is_none());
         let Some(way) = way else { return };
         let points: Vec<Point> = way.iter().flat_map(|stretch| &stretch.points).copied().collect();
@@ -64,8 +68,7 @@ impl Navigator<'_> {
         let figures = self.settings;
         let Some(&target) = self.legs.front().filter(|_| self.mode == Mode::Route) else { return figures };
         let leg = Segment::new(self.came_from, target);
-        let known = &self.barriers[..self.obstacles_from];
-        let nearest = known.iter().map(|barrier| leg.gap(barrier)).fold(f64::INFINITY, f64::min);
+        let nearest = self.barriers.iter().map(|barrier| leg.gap(barrier)).fold(f64::INFINITY, f64::min);
         let mut room = nearest - self.radius_m;
         if let (1, Some(next)) = (self.legs.len(), self.stretches.front())
             && let Some(building) = self.shapes.get(next.shape)
@@ -80,7 +83,7 @@ impl Navigator<'_> {
         Settings {
             goal_tolerance_m: figures.goal_tolerance_m.min(off),
             highway_half_width_m: figures.highway_half_width_m.min(room),
-            highway_clearance_m: figures.highway_clearance_m.min(off),
+            highway_clearance_m: figures.highway_clearance_m.min((room - LEAST_ROOM_M) / 2.0),
             turning_resolution: figures
                 .turning_resolution
                 .min((off / self.pose().at.distance(target).max(off)).asin()),

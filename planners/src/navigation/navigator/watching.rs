@@ -50,7 +50,7 @@ impl Navigator<'_> {
             searches: self.whereabouts.searches,
             is_aside: self.whereabouts.aside.is_some(),
             seeks: self.whereabouts.sought.len() as u32,
-            is_last: self.legs.len() == 1,
+            is_last: self.legs.len() == 1 && self.stretches.is_empty(),
             time_s: self.time_s() - self.begun_s,
             settings: self.figures(),
         }
