@@ -56,50 +56,78 @@ impl Router for Site<'_> {
 
 impl Site<'_> {
     fn found(&mut self, [from, to]: [Point; 2], shape: usize, met: &[Met]) -> Result<Option<Vec<Stretch>>> {
-        let goal = named_point(to);
-        let things = self.things(met, from);
-        let mut edits = Vec::new();
         if self.tells {
+            let things = self.things(met, from, 0.0);
             self.tell(&things)?;
-        } else {
-            let lay = |(number, thing): (usize, &Vec<Point>)| {
-                Edit::Lay(laid(format!("met in this mission, {number}"), thing))
-            };
-            edits.extend((1..).zip(&things).map(lay));
         }
+        let lean = self.asked([from, to], shape, met, 0.0)?;
+        let Some(least) = lean.as_ref().and_then(|lean| lean.cost).filter(|_| !met.is_empty()) else {
+            return Ok(lean.and_then(|lean| self.ground.stretches(&lean)));
+        };
+        // farther from what it met, where that costs little
+        let settings = &self.ground.settings;
+        for room_m in [settings.detour_room_m, settings.detour_clearance_m] {
+            let roomy = self.asked([from, to], shape, met, room_m)?;
+            if let Some(roomy) =
+                roomy.filter(|roomy| roomy.cost.is_some_and(|cost| cost <= settings.room_worth * least))
+            {
+                return Ok(self.ground.stretches(&roomy));
+            }
+        }
+        Ok(lean.and_then(|lean| self.ground.stretches(&lean)))
+    }
+
+    /// The best route where things stand that the robot met, each thicker than it saw them by so many metres at the least; `None`
+    /// where there is none, or only one that ends beside the goal.
+    fn asked(
+        &self,
+        [from, to]: [Point; 2],
+        shape: usize,
+        met: &[Met],
+        least_m: f64,
+    ) -> Result<Option<Answer>> {
+        let lay = |what: &'static str| {
+            move |(number, thing): (usize, Vec<Point>)| {
+                Edit::Lay(laid(format!("{what} in this mission, {number}"), &thing))
+            }
+        };
+        let mut edits: Vec<Edit> = (1..).zip(self.things(met, from, least_m)).map(lay("met")).collect();
         // Where what it met is known, the way is too narrow for it, though nobody else need find it so: what stands there stands
         // nearer, so that a shape with more room goes through; where nothing stands, it comes through in none.
         let stands_there = |at: Point| self.ground.walls.iter().any(|wall| wall.distance(at) <= HAIR_M);
         let known = met.iter().enumerate().filter(|(_, met)| met.is_known);
         let (stands, narrow): (Vec<_>, Vec<_>) = known.partition(|(_, met)| stands_there(met.at));
         let nearer = stands.iter().map(|(number, one)| {
-            let corner = Segment::new(one.at, one.at);
-            grown_by(&corner, self.thickness(&met[..*number], one))
+            grown_by(&Segment::new(one.at, one.at), self.thickness(&met[..*number], one))
         });
-        edits.extend(nearer.enumerate().map(|(number, thing)| {
-            Edit::Lay(laid(format!("narrow in this mission, {}", number + 1), &thing))
-        }));
+        edits.extend((1..).zip(nearer).map(lay("narrow")));
         let errand = Errand {
             avoid: narrow.into_iter().map(|(_, met)| named(met)).collect(),
             start_state: Some(self.ground.states[shape].clone()),
             ..Errand::default()
         };
+        let goal = named_point(to);
         let ask = |errand: &Errand| asked(self.live, &edits, (from, &goal), errand, &self.ground.robot);
-        let mut answer = ask(&errand)?;
-        if answer.cost.is_none() {
-            // where its shape does not fit by what it saw, another one may
-            answer = ask(&Errand { start_state: None, ..errand })?;
-        }
-        Ok(self.ground.stretches(&answer))
+        let answer = ask(&errand)?;
+        // where its shape does not fit by what it saw, another one may
+        let answer =
+            if answer.cost.is_none() { ask(&Errand { start_state: None, ..errand })? } else { answer };
+        let ends_there = |answer: &Answer| {
+            answer.waypoints.last().is_some_and(|last| {
+                Point::new(last.x, last.y).distance(to) <= self.ground.settings.goal_tolerance_m
+            })
+        };
+        Ok(Some(answer).filter(|answer| answer.cost.is_some() && ends_there(answer)))
     }
 
     /// What the robot saw and did not know of, as outlines of things that stand on the map; none stands where the robot does, or
-    /// on a place. Where it was in the way again, though the route left room for it, it is taken to be thicker.
-    fn things(&self, met: &[Met], from: Point) -> Vec<Vec<Point>> {
+    /// on a place. Where it was in the way again, though the route left room for it, it is taken to be thicker; each by so many
+    /// metres at the least.
+    fn things(&self, met: &[Met], from: Point, least_m: f64) -> Vec<Vec<Point>> {
         let places = self.ground.plan.places().iter().map(|place| place.at);
         let clear: Vec<Point> = places.chain([from]).collect();
         let thick = |(number, one): (usize, &Met)| {
-            let grown = self.thickness(&met[..number], one);
+            let grown = self.thickness(&met[..number], one).max(least_m);
             let seen = one.seen.iter().flat_map(|surface| beside(surface, grown, &clear));
             seen.map(|surface| grown_by(&surface, grown)).collect::<Vec<_>>()
         };

@@ -2,7 +2,7 @@
 
 use super::judge::Judge;
 use super::router::{Met, Router};
-use super::stretch::with_room;
+use super::stretch::{Stretch, with_room};
 use super::{Ending, Event, Happening, Navigator};
 use crate::body::Body;
 use crate::geometry::Point;
@@ -28,9 +28,10 @@ pub fn run<B: Body>(
     let mut met: Vec<Met> = Vec::new();
     loop {
         if let (Some(to), Some(router)) = (navigator.wants_way(), router.as_deref_mut()) {
-            let way = router.way([navigator.estimate().pose.at, to], navigator.shape(), &met);
-            let way = way
-                .map(|way| with_room(way, navigator.shapes(), &navigator.surfaces(), navigator.settings()));
+            let (from, shape) = (navigator.estimate().pose.at, navigator.shape());
+            let way = router.way([from, to], shape, &met).map(|way| begun_in(shape, from, way));
+            let met_there = navigator.surfaces();
+            let way = way.map(|way| with_room(way, navigator.shapes(), &met_there, navigator.settings()));
             navigator.take_way(way, met.is_empty());
         }
         let ending = navigator.step(body, judge);
@@ -50,6 +51,15 @@ pub fn run<B: Body>(
             return ending;
         }
     }
+}
+
+/// A way that begins where the robot is, in the shape that it has.
+fn begun_in(shape: usize, from: Point, mut way: Vec<Stretch>) -> Vec<Stretch> {
+    let first = way.first().filter(|first| first.shape != shape);
+    if let Some(to) = first.and_then(|first| first.points.first().copied()) {
+        way.insert(0, Stretch { shape, points: vec![from, to] });
+    }
+    way
 }
 
 /// Towards what is in the way; where the robot looks, if it stands in it.

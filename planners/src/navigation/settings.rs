@@ -15,7 +15,7 @@ settings! {
             look_ahead_m: f64 = 2.5, "look_ahead", "m", Positive, "Obstacles on the way count from so near on.";
             stride_m: f64 = 3.0, "stride", "m", Positive, "The robot goes no farther without a look around.";
             speed_m_s: f64 = 0.5, "speed", "m/s", Positive, "How fast the robot goes.";
-            stride_to_room: f64 = 30.0, "stride_to_room", "", Positive, "On a site's route it goes no farther without a look around than so many times the room beside it.";
+            stride_to_room: f64 = 15.0, "stride_to_room", "", Positive, "On a site's route it goes no farther without a look around than so many times the room beside it.";
             scan_readings: usize = 120, "scan_readings", "", Count, "Readings of the sonar that make a whole scan.";
             part_readings: usize = 40, "part_readings", "", Count, "Readings after which the model is updated on the way.";
             echoes: usize = 2, "echoes", "", Count, "So many raw echoes are in the way before what they hit is: one may be false.";

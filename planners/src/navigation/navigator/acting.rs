@@ -5,7 +5,11 @@ use crate::body::{Body, Command};
 use crate::geometry::{Point, path_length};
 use crate::navigation::detour::Detours;
 use crate::navigation::event::{Ending, Happening};
+use crate::navigation::highway::free_ahead;
 use crate::navigation::judge::{Action, Judge, State, StateDecision, StateFacts};
+
+/// So far at the least the robot withdraws from what it touched, metres: it has to be off it.
+const LEAST_BACK_M: f64 = 0.01;
 
 impl Navigator<'_> {
     pub(super) fn follow(
@@ -82,13 +86,21 @@ impl Navigator<'_> {
     pub(super) fn back_off(&mut self, body: &mut impl Body) {
         self.back_offs += 1;
         let bearing = self.contact.take().map_or(0.0, |contact| contact.bearing);
-        let far = self.settings.back_off_m;
         if bearing.cos().abs() >= ASIDE {
-            self.drive_straight(body, if bearing.cos() > 0.0 { -far } else { far });
+            let sign = -bearing.cos().signum();
+            self.drive_straight(body, sign * self.back_off_m(self.pose().direction(0.0) * sign));
         } else {
             body.command(Command::Turn { by: bearing });
+            let far = self.back_off_m(-self.pose().direction(bearing));
             (self.course, self.readings_standing, self.then_m) = (None, 0, Some(-far));
         }
+    }
+
+    /// How far it withdraws in a direction: no farther than is free there.
+    fn back_off_m(&self, towards: Point) -> f64 {
+        let (at, far) = (self.pose().at, self.settings.back_off_m);
+        let free = free_ahead(at, at + towards * far, [self.radius_m; 2], &self.barriers);
+        if free.by.is_some() { (free.metres / 2.0).max(LEAST_BACK_M) } else { far }
     }
 
     pub(super) fn drive_straight(&mut self, body: &mut impl Body, distance_m: f64) {
@@ -109,8 +121,8 @@ impl Navigator<'_> {
             let reached = self.legs.pop_front()?;
             self.came_from = reached;
             self.tell(Happening::Reached(reached));
-            let is_end = self.legs.is_empty() && self.whereabouts.aside.is_none() && !self.goes_on();
-            return is_end.then_some(Ending::Arrived);
+            let leads_on = !self.legs.is_empty() || self.goes_on();
+            return (!leads_on && self.whereabouts.aside.is_none()).then_some(Ending::Arrived);
         }
         None
     }

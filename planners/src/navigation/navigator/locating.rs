@@ -37,13 +37,13 @@ const KEPT_ANGLE: f64 = 0.05;
 #[derive(Clone, Debug)]
 pub(super) struct Whereabouts {
     walls: KnownWalls,
-    /// The last whole scan.
-    scan: Option<Scan>,
+    /// The last whole scan, and the wheels' count where it was taken.
+    scan: Option<(Scan, Pose)>,
     pub recognition: Recognition,
     /// Whether the poses were looked for at which the last whole scan may have been taken: as the estimate has it, anywhere.
     pub is_matched: bool,
     pub is_searched: bool,
-    /// Where it may be, when last looked for, and the wheels' count then.
+    /// Where it may have been when last looked for, and the wheels' count there.
     poses: (Pose, Vec<Pose>),
     /// Times that it was looked for over the whole building since the goal was given.
     pub searches: u32,
@@ -82,23 +82,25 @@ impl Whereabouts {
 impl Navigator<'_> {
     /// Takes note of a whole scan.
     pub(super) fn recognise(&mut self, readings: &[Reading]) {
-        let pose = self.pose();
+        let (pose, odometry) = (self.pose(), self.odometry());
         let of = &mut self.whereabouts;
         let scan = Scan::new(readings, self.model.settings());
         of.recognition = of.walls.recognise(&scan, &pose);
-        (of.scan, of.is_matched, of.is_searched) = (Some(scan), false, false);
+        (of.scan, of.is_matched, of.is_searched) = (Some((scan, odometry)), false, false);
     }
 
     /// Looks for the poses at which the last whole scan may have been taken: over the whole building, or as the estimate has it.
     pub(super) fn locate(&mut self, is_anywhere: bool, judge: &mut impl Judge) {
         self.take_views();
-        let (odometry, estimate) = (self.odometry(), *self.model.estimate());
+        let (odometry, now) = (self.odometry(), *self.model.estimate());
         let of = &mut self.whereabouts;
         of.is_matched = true;
         of.is_searched |= is_anywhere;
         of.searches += u32::from(is_anywhere);
-        let Some(scan) = &of.scan else { return };
-        let step = of.poses.0.to(&odometry);
+        let Some((scan, taken)) = &of.scan else { return };
+        let taken = *taken;
+        let estimate = Estimate { pose: now.pose.then(&odometry.to(&taken)), ..now };
+        let step = of.poses.0.to(&taken);
         let before: Vec<Pose> = of.poses.1.iter().map(|pose| pose.then(&step)).collect();
         let also: Vec<Pose> = before.iter().chain([&estimate.pose]).copied().collect();
         let prior = (!is_anywhere).then_some(&estimate);
@@ -126,7 +128,13 @@ impl Navigator<'_> {
         of.recognition = of.walls.recognise(scan, &located.pose);
         let poses: Vec<Pose> = found.iter().map(|candidate| candidate.estimate.pose).collect();
         self.tell(Happening::Located { poses: poses.clone(), is_anywhere });
-        self.whereabouts.poses = (odometry, poses);
+        self.whereabouts.poses = (taken, poses);
+        // the robot may have gone on since it was there
+        let mut since = LocalModel::new(*self.model.settings(), located);
+        since.reckon(&taken);
+        since.set_estimate(located);
+        since.reckon(&odometry);
+        let located = *since.estimate();
         self.place(located, judge);
     }
 

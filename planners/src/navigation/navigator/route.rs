@@ -97,16 +97,17 @@ impl Navigator<'_> {
         !self.legs.is_empty() && self.sensed.as_ref().is_some_and(|sensed| sensed.shape != self.needed)
     }
 
-    /// What was met and leaves no room for the shape in which the robot has to be before it goes on.
+    /// What leaves no room for the shape in which the robot has to be before it goes on: what was met, with some room, and what is
+    /// known to stand or hang there.
     pub(super) fn met_beside_change(&self) -> Option<Segment> {
         let shape = self.shapes.get(self.needed).filter(|_| self.is_changing())?;
         let radius = shape.network.disc.radius;
         let reach = if radius > self.radius_m { radius + self.settings.detour_clearance_m } else { 0.0 };
         let at = self.pose().at;
         let met = self.barriers[self.obstacles_from..].iter().chain(&self.moving);
-        met.filter(|met| met.distance(at) < reach)
-            .min_by(|one, other| one.distance(at).total_cmp(&other.distance(at)))
-            .copied()
+        let met = met.filter(|met| met.distance(at) < reach);
+        let known = shape.walls.iter().chain(&shape.overhead).filter(|known| known.distance(at) < radius);
+        met.chain(known).min_by(|one, other| one.distance(at).total_cmp(&other.distance(at))).copied()
     }
 
     /// Looks at the building as it is for the robot in a shape.
