@@ -4,27 +4,42 @@ use adit_tests::service::Service;
 use adit_tests::{Ran, TestSite};
 use serde_json::{Value, json};
 
-use crate::disk::files_in;
+use crate::disk::{Files, files_in};
 use crate::judge::Content;
 use crate::starter;
 use crate::tape::Recorder;
 
-/// What readers see, while the site is served or not.
-fn content(site: &TestSite) -> Content {
-    Content::of(&site.path().join("site.db")).unwrap()
+/// What readers see, and the files beside the database.
+fn content(site: &TestSite) -> (Content, Files) {
+    let mut files = files_in(site.path());
+    files.retain(|name, _| !name.starts_with("site.db"));
+    (Content::of(&site.path().join("site.db")).unwrap(), files)
 }
 
 fn set(state: &str, value: f64) -> Value {
     json!({"edit": {"kind": "set", "table": "robots", "key": state, "column": "hardness", "value": value}})
 }
 
+/// A rule's file, over the one of this version.
+fn rule(factor: f64, version: &Value) -> Value {
+    let rule = format!("set room.hardness by * {factor} level 10");
+    let text = format!("revise \"draughty\"\n    each room in ROOMS where room.y0 < 4.0\n    {rule}\n");
+    json!({"text": text, "version": version})
+}
+
+type Request<'r> = (&'r str, &'r str, &'r Value);
+
+const EDIT: (&str, &str) = ("POST", "/api/edits");
+const RULE: (&str, &str) = ("PUT", "/api/rules/draughty.rhai");
+
 /// Sends something that needs room, with none from its first write on, then from its second on, and so on, until it is
 /// answered by 200; gives how often it was refused. Each time all is as it was, and once there is room the next edit is made.
-fn refused(site: &TestSite, disk: &Recorder, service: &Service, request: (&str, &str, &Value)) -> u64 {
+/// Of every other first write, or of every one in a second turn, half is still written.
+fn refused(site: &TestSite, disk: &Recorder, service: &Service, request: Request<'_>, turns: u64) -> u64 {
     let (method, path, body) = request;
     for number in 0.. {
         let before = content(site);
-        let (first, is_half) = (number / 2 + 1, number % 2 == 1);
+        let (first, is_half) = (number / turns + 1, number % 2 == 1);
         disk.refuse(first..u64::MAX, is_half);
         let (status, answer) = service.ask(method, path, Some(body));
         disk.make_room();
@@ -48,23 +63,55 @@ fn an_edit_that_finds_no_room_at_any_of_its_writes_changes_nothing_and_the_next_
     let site = starter();
     let disk = Recorder::of(&site);
     let service = Service::start_by(disk.adit(), &site, &["--listen", "127.0.0.1:0"]);
+    let times = refused(&site, &disk, &service, (EDIT.0, EDIT.1, &set("SQUAT", 3.0)), 1);
+    assert!(times > 10, "it was refused {times} times");
+    service.end();
+    assert_eq!(site.sqlite3("SELECT hardness FROM robots WHERE state = 'SQUAT'"), ["3.0"]);
+    site.adit("doctor", &[]).expect_status(0);
+}
+
+/// Where the database had no room for what follows from a rule, there was none for the rule's file of before, either: the new
+/// one stayed, and was taken up once there was room.
+#[test]
+fn a_rule_that_finds_no_room_at_any_of_its_writes_changes_nothing_and_the_next_edit_is_made() {
+    let site = starter();
+    let disk = Recorder::of(&site);
+    let service = Service::start_by(disk.adit(), &site, &["--listen", "127.0.0.1:0"]);
+    let (status, saved) = service.ask(RULE.0, RULE.1, Some(&rule(1.5, &Value::Null)));
+    assert_eq!(status, 200, "{saved}");
+    let times = refused(&site, &disk, &service, (RULE.0, RULE.1, &rule(2.0, &saved["version"])), 1);
+    assert!(times > 10, "it was refused {times} times");
+    assert!(site.read("rules/draughty.rhai").contains("* 2"));
+    let rules = files_in(&site.path().join("rules"));
+    assert_eq!(rules.keys().collect::<Vec<_>>(), ["draughty.rhai"]);
+}
+
+#[test]
+#[ignore = "takes a minute; by hand: cargo test --workspace --test power -- --ignored"]
+fn edits_of_every_kind_that_find_no_room_at_any_of_their_writes_change_nothing() {
+    let site = starter();
+    let disk = Recorder::of(&site);
+    let service = Service::start_by(disk.adit(), &site, &["--listen", "127.0.0.1:0"]);
     let place = json!({"kind": "lay", "what": "place", "name": "charger", "corners": [[1.0, 1.0]]});
-    let together = json!({"edit": {"kind": "together", "edits": [set("SQUAT", 7.0)["edit"], place]}});
-    let close = json!({"edit": {"kind": "close", "what": "doorway 1", "for_seconds": 3_600}});
-    let text = json!({"text": "revise \"draughty\"\n    each room in ROOMS where room.y0 < 4.0\n    set room.hardness by * 1.5 level 10\n"});
-    for request in [
-        ("POST", "/api/edits", &set("SQUAT", 3.0)),
-        ("POST", "/api/edits", &together),
-        ("POST", "/api/edits", &close),
-        ("PUT", "/api/rules/draughty.rhai", &text),
-    ] {
-        let times = refused(&site, &disk, &service, request);
-        assert!(times > 8, "{request:?} was refused {times} times");
+    let set_in_tuning = json!({"kind": "set_in_tuning", "tuning": "guests", "table": "robots", "key": "STAND", "column": "speed", "value": 0.75});
+    let edits = [
+        set("SQUAT", 7.0)["edit"].clone(),
+        json!({"kind": "together", "edits": [set("SQUAT", 7.5)["edit"], place]}),
+        json!({"kind": "close", "what": "doorway 1", "for_seconds": 3_600}),
+        json!({"kind": "open", "what": "doorway 1"}),
+        set_in_tuning,
+        json!({"kind": "switch", "tuning": "guests", "on": true}),
+    ];
+    for edit in edits {
+        let edit = json!({"edit": edit});
+        let times = refused(&site, &disk, &service, (EDIT.0, EDIT.1, &edit), 2);
+        assert!(times > 10, "{edit} was refused {times} times");
     }
+    assert!(refused(&site, &disk, &service, (RULE.0, RULE.1, &rule(1.5, &Value::Null)), 2) > 10);
     service.end();
     let end =
         "SELECT hardness FROM robots WHERE state = 'SQUAT'; SELECT count(*) FROM told; SELECT name FROM laid";
-    assert_eq!(site.sqlite3(end), ["7.0", "1", "charger"]);
+    assert_eq!(site.sqlite3(end), ["7.5", "0", "charger"]);
     site.adit("doctor", &[]).expect_status(0);
 }
 
@@ -78,6 +125,7 @@ fn a_command_that_finds_no_room_at_any_of_its_writes_changes_nothing_and_the_nex
         Ran::new(&program.output().unwrap())
     };
     let mut first = 1;
+    // the last of all is that the folder is synced, which no longer has the journal: the edit is made then, and whole
     loop {
         let before = content(&site);
         disk.refuse(first..u64::MAX, first % 2 == 0);
@@ -86,12 +134,15 @@ fn a_command_that_finds_no_room_at_any_of_its_writes_changes_nothing_and_the_nex
         if ran.status == 0 {
             break;
         }
-        ran.complains(&["disk"]);
-        assert!(content(&site) == before, "refused at write {first}: {}", ran.stderr);
+        ran.complains(&["database", "disk"]);
+        if content(&site) != before {
+            break;
+        }
         first += 1;
     }
     assert!(first > 20, "it was refused {first} times");
-    assert_eq!(site.sqlite3("SELECT hardness FROM robots WHERE state = 'SQUAT'"), ["3.0"]);
+    let made = "SELECT hardness, (SELECT count(*) FROM history) FROM robots WHERE state = 'SQUAT'";
+    assert_eq!(site.sqlite3(made), ["3.0|1"]);
     tune("5").expect_status(0);
     site.adit("doctor", &[]).expect_status(0);
 }

@@ -261,7 +261,7 @@ fn replace(
     let outcome = match taken {
         Ok(outcome) => outcome,
         Err(fault) => {
-            kept.back()?;
+            kept.back();
             if made {
                 fs::remove_dir_all(&folder).ok();
             }
@@ -293,21 +293,23 @@ struct Kept<'p> {
 
 impl<'p> Kept<'p> {
     fn of(path: &'p Path, text: Option<&str>) -> Answered<Self> {
-        let Some(text) = text else { return Ok(Self { path, beside: None }) };
-        let kept = Self { path, beside: Some(path.with_extension("old")) };
-        match kept.beside.as_ref().map(|beside| fs::write(beside, text)) {
-            Some(Err(error)) => Err(Error::io("write", path, &error).into()),
-            _ => Ok(kept),
-        }
+        let kept = Self { path, beside: text.map(|_| path.with_extension("old")) };
+        let written = kept
+            .beside
+            .iter()
+            .zip(text)
+            .try_for_each(|(old, text)| whole::write_beside(old, text.as_bytes()));
+        written.map_err(|error| Error::io("write", path, &error))?;
+        Ok(kept)
     }
 
-    fn back(&self) -> Answered<()> {
-        let done = match &self.beside {
+    /// On a disk that syncs nothing any more all is as it was for whoever reads the file.
+    fn back(&self) {
+        match &self.beside {
             Some(beside) => whole::replace(self.path, beside),
-            None if self.path.exists() => whole::remove(self.path),
-            None => Ok(()),
-        };
-        done.map_err(|error| Error::io("write", self.path, &error).into())
+            None => whole::remove(self.path),
+        }
+        .ok();
     }
 }
 
@@ -323,7 +325,8 @@ fn put(path: &Path, text: Option<&str>) -> Answered<()> {
         Some(text) => {
             let next = path.with_extension("new");
             let made = path.parent().map_or(Ok(()), whole::lasting_folder);
-            let made = made.and_then(|()| fs::write(&next, text)).and_then(|()| whole::replace(path, &next));
+            let made = made.and_then(|()| whole::write_beside(&next, text.as_bytes()));
+            let made = made.and_then(|()| whole::replace(path, &next));
             made.inspect_err(|_| drop(fs::remove_file(&next)))
         }
         None => whole::remove(path),
