@@ -12,6 +12,8 @@ mod full;
 mod judge;
 #[path = "power/kills.rs"]
 mod kills;
+#[path = "power/migrations.rs"]
+mod migrations;
 #[path = "power/people.rs"]
 mod people;
 #[path = "power/serving.rs"]

@@ -140,7 +140,7 @@ impl Recording {
 }
 
 /// The files in a folder of their own.
-fn laid_out(files: &Files) -> TestSite {
+pub fn laid_out(files: &Files) -> TestSite {
     let site = TestSite::empty();
     for (name, content) in files {
         site.write(name, content);
