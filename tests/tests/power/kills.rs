@@ -35,6 +35,7 @@ fn killed(times: usize, seed: u64) {
         assert_eq!(site.sqlite3(cell), site.sqlite3(last), "round {round}");
     }
     let edits = acknowledged.into_inner().unwrap().len();
+    eprintln!("{edits} edits were acknowledged, and {times} services killed");
     assert!(edits > times, "{edits} edits in {times} rounds");
     site.adit("doctor", &[]).expect_status(0);
 }

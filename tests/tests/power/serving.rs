@@ -49,6 +49,7 @@ fn two_hundred_power_cuts_lose_nothing() {
         acknowledged += recording.acknowledged();
         assert_eq!(recording.faults_of_cuts(40, 1_000 * (1 + seed as u64)), []);
     }
+    eprintln!("{acknowledged} edits were acknowledged");
     assert!(acknowledged > 1_000, "{acknowledged}");
 }
 
