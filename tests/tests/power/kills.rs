@@ -21,7 +21,7 @@ fn killed(times: usize, seed: u64) {
         thread::scope(|scope| {
             let people = People { address: &address, day: format!("day {round}"), acknowledged: &note };
             scope.spawn(move || people.edit(usize::MAX));
-            thread::sleep(Duration::from_millis(50 + chance.below(400) as u64));
+            thread::sleep(Duration::from_millis(100 + chance.below(600) as u64));
             service.kill();
         });
         let there = site.sqlite3("SELECT id FROM history");
