@@ -17,18 +17,33 @@ pub async fn copy(connection: &mut SqliteConnection, to: &Path) -> Result<()> {
     Ok(())
 }
 
+/// Copies the database beside itself before it is migrated. Under the copy's name there is a whole one, whenever the power goes.
+pub(crate) async fn before_migration(
+    connection: &mut SqliteConnection,
+    path: &Path,
+    version: i64,
+) -> Result<()> {
+    let backup = free_name(path, version);
+    let half = beside(path, ".bak-half");
+    // of a copy that was broken off
+    std::fs::remove_file(&half).ok();
+    copy(connection, &half).await?;
+    std::fs::rename(&half, &backup).map_err(|source| Error::Io { path: backup, source })
+}
+
+fn beside(path: &Path, suffix: &str) -> PathBuf {
+    let mut name = path.as_os_str().to_owned();
+    name.push(suffix);
+    PathBuf::from(name)
+}
+
 /// `site.db.bak-v1`, or `site.db.bak-v1-2` where that is taken.
-pub(crate) fn before_migration(path: &Path, version: i64) -> PathBuf {
-    let named = |suffix: &str| {
-        let mut name = path.as_os_str().to_owned();
-        name.push(format!(".bak-v{version}{suffix}"));
-        PathBuf::from(name)
-    };
-    let mut backup = named("");
+fn free_name(path: &Path, version: i64) -> PathBuf {
+    let mut backup = beside(path, &format!(".bak-v{version}"));
     let mut copies = 1;
     while backup.exists() {
         copies += 1;
-        backup = named(&format!("-{copies}"));
+        backup = beside(path, &format!(".bak-v{version}-{copies}"));
     }
     backup
 }

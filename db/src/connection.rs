@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use sqlx::sqlite::SqliteConnectOptions;
+use sqlx::sqlite::{SqliteConnectOptions, SqliteSynchronous};
 use sqlx::{ConnectOptions, Connection as _, SqliteConnection};
 use tokio::runtime::{Builder, Runtime};
 
@@ -63,7 +63,9 @@ impl Drop for Connection {
     }
 }
 
-/// What every connection of ours has: foreign keys, full synchronisation, and room for a build's pages.
+/// What every connection of ours has: foreign keys, full synchronisation, and room for a build's pages. A transaction is
+/// done when its journal is gone: that it is gone is synced as well, or a power cut would bring it back and undo what was
+/// acknowledged.
 pub(crate) fn options(path: &Path, patience: Duration) -> Result<SqliteConnectOptions> {
     // absolute, since SQLite would take a relative name like `file:x` for a URI
     let absolute = std::path::absolute(path).map_err(|source| Error::Io { path: path.to_owned(), source })?;
@@ -71,6 +73,7 @@ pub(crate) fn options(path: &Path, patience: Duration) -> Result<SqliteConnectOp
         .filename(absolute)
         .foreign_keys(true)
         .busy_timeout(patience)
+        .synchronous(SqliteSynchronous::Extra)
         .pragma("cache_size", "-65536")
         .disable_statement_logging())
 }

@@ -52,9 +52,17 @@ pub enum Error {
     /// The file, its folder or this way of opening does not allow writing.
     #[error("{0} cannot be written: the file, its folder or this connection is read-only")]
     ReadOnly(PathBuf),
+    /// A journal that cannot be made beside the database.
+    #[error(
+        "{0} cannot be used: no file can be made beside it, since its folder is read-only or the disk is full"
+    )]
+    NoFileBeside(PathBuf),
     /// The disk is full.
     #[error("the disk is full while writing {0}")]
     Full(PathBuf),
+    /// The disk does not do what it is told.
+    #[error("the disk failed while reading or writing {0}")]
+    Disk(PathBuf),
     /// The operating system would not open the file.
     #[error("{0} cannot be opened")]
     CannotOpen(PathBuf),
@@ -164,6 +172,7 @@ const TABLE_LOCKED: i32 = 6;
 const READ_ONLY: i32 = 8;
 pub(crate) const NO_MEMORY: i32 = 7;
 pub(crate) const INTERRUPTED: i32 = 9;
+const DISK: i32 = 10;
 const CORRUPT: i32 = 11;
 const FULL: i32 = 13;
 const CANNOT_OPEN: i32 = 14;
@@ -183,8 +192,9 @@ impl Error {
         let path = path.to_owned();
         Some(match code {
             BUSY | TABLE_LOCKED => Self::Locked(path),
-            // a journal that cannot be created beside an open database: its folder is read-only
-            READ_ONLY | CANNOT_OPEN => Self::ReadOnly(path),
+            READ_ONLY => Self::ReadOnly(path),
+            CANNOT_OPEN => Self::NoFileBeside(path),
+            DISK => Self::Disk(path),
             CORRUPT | NOT_A_DATABASE => Self::NotADatabase(path),
             FULL => Self::Full(path),
             _ => return None,

@@ -130,7 +130,7 @@ pub(crate) async fn migrate(connection: &mut SqliteConnection, path: &Path, step
             return Err(Error::Newer { path: path.to_owned(), found, known });
         }
         Kind::Adit(found) if found < known => {
-            backup::copy(connection, &backup::before_migration(path, found)).await?;
+            backup::before_migration(connection, path, found).await?;
             made_by(steps).await?
         }
         Kind::Adit(_) => return Ok(()),

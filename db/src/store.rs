@@ -65,16 +65,26 @@ impl Store {
         Ok(store)
     }
 
-    /// Opens a database for reading: works in a read-only folder, and refuses every write.
+    /// Opens a database for reading: works in a read-only folder, and refuses every write. Only half a transaction, which a
+    /// program that was killed has left, is taken back first.
     pub fn open_read_only(path: impl AsRef<Path>) -> Result<Self> {
         let path = path.as_ref();
         if !path.exists() {
             return Err(Error::Missing(path.to_owned()));
         }
         let options = options(path, PATIENCE)?.read_only(true);
-        let mut store = Self { connection: Connection::open(path, &options)?, writes: false };
+        let open = || -> Result<_> {
+            let mut store = Self { connection: Connection::open(path, &options)?, writes: false };
+            let kind = store.run(async |connection| migrate::kind(connection).await)?;
+            Ok((store, kind))
+        };
+        let opened = match open() {
+            Err(Error::ReadOnly(_)) if take_back_what_is_left(path).is_ok() => open(),
+            opened => opened,
+        };
         let path = path.to_owned();
-        match store.run(async |connection| migrate::kind(connection).await)? {
+        let (store, kind) = opened?;
+        match kind {
             Kind::Adit(VERSION) => Ok(store),
             Kind::Adit(found) if found > VERSION => Err(Error::Newer { path, found, known: VERSION }),
             Kind::Adit(found) => Err(Error::Older { path, found, known: VERSION }),
@@ -147,7 +157,7 @@ impl Store {
     }
 
     /// Ends [`share`](Self::share): the database is one file again. Where another connection is still open, `-wal` and
-    /// `-shm` stay beside it; whether the file alone holds all is said then.
+    /// `-shm` stay beside it, and where the disk is full; whether the file alone holds all is said then.
     pub fn unshare(&mut self) -> Result<bool> {
         match self.connection.execute(ONE_FILE) {
             Err(error) if error.is_busy() => self.run(async |connection| {
@@ -155,6 +165,8 @@ impl Store {
                 let (_, pages, moved): (i64, i64, i64) = checkpoint.fetch_one(connection).await?;
                 Ok(pages == moved)
             }),
+            // what was acknowledged is in the log
+            Err(Error::Full(_) | Error::Disk(_) | Error::NoFileBeside(_)) => Ok(false),
             done => done.map(|()| true),
         }
     }
@@ -162,7 +174,7 @@ impl Store {
     /// Whether each transaction is on the disk before it is done. Without that, and in WAL mode ([`Store::share`]), a crash
     /// of the program loses nothing, and a power cut the last transactions; the database stays whole in either case.
     pub fn sync_each(&mut self, on: bool) -> Result<()> {
-        self.connection.execute(if on { "PRAGMA synchronous = FULL" } else { "PRAGMA synchronous = NORMAL" })
+        self.connection.execute(if on { "PRAGMA synchronous = EXTRA" } else { "PRAGMA synchronous = NORMAL" })
     }
 
     /// Writes a compact copy of the database to `to`, which must not exist.
@@ -193,6 +205,13 @@ impl Drop for Store {
             self.connection.execute(ONE_FILE).ok();
         }
     }
+}
+
+/// Takes half a transaction back that is left of a power cut or of a program that was killed: nobody can read before, and a
+/// connection that only reads may not.
+fn take_back_what_is_left(path: &Path) -> Result<()> {
+    let mut writer = Connection::open(path, &options(path, PATIENCE)?)?;
+    writer.run(async |connection| migrate::kind(connection).await.map(drop))
 }
 
 /// Below 3.51.3, two connections that write in WAL mode may corrupt the database (SQLite's WAL-reset bug).

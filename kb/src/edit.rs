@@ -107,7 +107,7 @@ impl Edit {
                 let columns = columns(tx, table)?;
                 let cell = cell_of(table, column, value, &columns)?;
                 let found = tx.set_cell((table, key, column), &cell, author);
-                found.map_err(|error| explain(tx, &error, table, key, value))?
+                found.map_err(|error| explain(tx, error, table, key, value))?
             }
             Self::SetFrom([table, key, column], seen, value) => {
                 let set = Self::Set(table.clone(), key.clone(), column.clone(), value.clone());
@@ -121,12 +121,12 @@ impl Edit {
                 let row = row(tx, table, key, cells)?;
                 let named: Vec<(&str, Cell)> =
                     row.iter().map(|(name, value)| (name.as_str(), value.clone())).collect();
-                tx.add_row(table, &named, author).map_err(|error| explain(tx, &error, table, key, ""))?
+                tx.add_row(table, &named, author).map_err(|error| explain(tx, error, table, key, ""))?
             }
             Self::Remove(table, key) => {
                 columns(tx, table)?;
                 let gone = tx.remove_row(table, key, author);
-                gone.map_err(|error| explain(tx, &error, table, key, ""))?
+                gone.map_err(|error| explain(tx, error, table, key, ""))?
             }
             Self::Table(table, sheet) => table::take(tx, table, sheet, author)?,
             Self::Tell(tell) => {

@@ -105,7 +105,7 @@ pub fn run(args: &ServeArgs) -> Result<()> {
     if !is_whole {
         let database = site.database().display();
         remark(&format!(
-            "another program still reads {database}: a copy needs {database}-wal beside it, until `adit build`"
+            "another program still reads {database}, or the disk is full: a copy needs {database}-wal beside it, until `adit build`"
         ));
     }
     Ok(())

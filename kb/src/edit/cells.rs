@@ -135,9 +135,12 @@ pub(super) fn row(
     Ok(row)
 }
 
-/// The store's error, with the row that was probably meant, or the value that was refused.
-pub(super) fn explain(tx: &mut Tx<'_>, error: &adit_db::Error, table: &str, key: &str, value: &str) -> Error {
-    let help = match error {
+/// The store's error; of what the table does not take, with the row that was probably meant, or the value that was refused.
+pub(super) fn explain(tx: &mut Tx<'_>, error: adit_db::Error, table: &str, key: &str, value: &str) -> Error {
+    if Code::from(&error) != Code::DatabaseRefused {
+        return error.into();
+    }
+    let help = match &error {
         adit_db::Error::UnknownKey { .. } => {
             keys(tx, table).ok().and_then(|keys| did_you_mean(key, keys.iter().map(String::as_str)))
         }
@@ -147,7 +150,7 @@ pub(super) fn explain(tx: &mut Tx<'_>, error: &adit_db::Error, table: &str, key:
         ),
         _ => None,
     };
-    if let adit_db::Error::Refused { reason, .. } = error {
+    if let adit_db::Error::Refused { reason, .. } = &error {
         if let Some(cell) = reason.strip_prefix("NOT NULL constraint failed: ") {
             let message = format!("{cell} must have a value, and `{key}` has none");
             return Error::said(Code::EditRefused, message, None);

@@ -74,7 +74,7 @@ pub(super) fn take(tx: &mut Tx<'_>, table: &str, sheet: &Sheet, author: &Author)
         let others = file.others.iter().map(cell).collect::<Result<Vec<_>>>().map_err(told)?;
         let key: Vec<String> = keys.iter().map(|(_, cell)| cell.to_string()).collect();
         let whole = key.join("/");
-        let refused = |tx: &mut Tx<'_>, error: &adit_db::Error| told(explain(tx, error, table, &whole, ""));
+        let refused = |tx: &mut Tx<'_>, error: adit_db::Error| told(explain(tx, error, table, &whole, ""));
         if let Some(kept) = kept.remove(&key) {
             for (column, cell) in others {
                 let known = &columns[column];
@@ -85,7 +85,7 @@ pub(super) fn take(tx: &mut Tx<'_>, table: &str, sheet: &Sheet, author: &Author)
                 if !(is_same || is_bytes) {
                     match tx.set_cell((table, &whole, &known.name), &cell, author) {
                         Ok(edited) => note(edited, 0, Some(&known.name)),
-                        Err(error) => return Err(refused(tx, &error)),
+                        Err(error) => return Err(refused(tx, error)),
                     }
                 }
             }
@@ -96,7 +96,7 @@ pub(super) fn take(tx: &mut Tx<'_>, table: &str, sheet: &Sheet, author: &Author)
             named.map(|(column, cell)| (columns[column].name.as_str(), cell)).collect();
         match tx.add_row(table, &named, author) {
             Ok(edited) => note(edited, 1, None),
-            Err(error) => return Err(refused(tx, &error)),
+            Err(error) => return Err(refused(tx, error)),
         }
     }
     // a row may have gone with another one already
@@ -104,7 +104,7 @@ pub(super) fn take(tx: &mut Tx<'_>, table: &str, sheet: &Sheet, author: &Author)
         match tx.remove_row(table, &key, author) {
             Ok(edited) => note(edited, 2, None),
             Err(adit_db::Error::UnknownKey { .. }) => {}
-            Err(error) => return Err(explain(tx, &error, table, &key, "")),
+            Err(error) => return Err(explain(tx, error, table, &key, "")),
         }
     }
     let more = listed.len().saturating_sub(LISTED);

@@ -22,7 +22,7 @@ pub fn set(tx: &mut Tx<'_>, tuning: &str, cell: &[String; 4], author: &Author) -
     let known = columns(tx, table)?;
     let given = cell_of(table, column, value, &known)?;
     let tried = tx.try_cell((table, key, column), &given);
-    let (key, new) = tried.map_err(|error| explain(tx, &error, table, key, value))?;
+    let (key, new) = tried.map_err(|error| explain(tx, error, table, key, value))?;
     let place = [tuning, table, &key, column].join("/");
     if has(tx, tuning, table, &key, column)? {
         return Ok(tx.set_cell((CELLS, &place, "value"), &new, author)?);

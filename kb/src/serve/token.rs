@@ -10,6 +10,7 @@ use subtle::ConstantTimeEq;
 
 use super::role::{Caller, Role};
 use crate::error::{Code, Error, Result};
+use crate::site::whole;
 
 /// The file's name, in the folder of the site.
 pub const FILE: &str = "tokens.toml";
@@ -80,8 +81,9 @@ impl Tokens {
         let text = toml::to_string(self).map_err(Error::of(Code::TokensUnwritable))?;
         let text = format!("# Written by `adit token`. Who holds a token may do what its roles say.\n{text}");
         let next = file.with_extension("toml.new");
-        let written =
-            fs::write(&next, text).and_then(|()| private(&next)).and_then(|()| fs::rename(&next, file));
+        let written = whole::write_beside(&next, text.as_bytes())
+            .and_then(|()| private(&next))
+            .and_then(|()| whole::replace(file, &next));
         written.map_err(|error| {
             fs::remove_file(&next).ok();
             Error::io("write", file, &error)

@@ -121,9 +121,53 @@ fn written(path: &Path, content: &[u8]) -> std::io::Result<()> {
         made => made?,
     };
     next.write_all(content)?;
+    // or a power cut may leave the name with nothing in it
+    next.as_file().sync_all()?;
     if let Some(before) = before {
         fs::set_permissions(next.path(), before.permissions())?;
     }
     next.persist(path)?;
+    Ok(())
+}
+
+/// Writes a file beside another, whose place it is to take.
+pub fn write_beside(next: &Path, content: &[u8]) -> std::io::Result<()> {
+    let mut file = fs::File::create(next)?;
+    file.write_all(content)?;
+    file.sync_all()
+}
+
+/// Puts a file that was [written beside](write_beside) it in a file's place: a power cut leaves the one or the other, and the
+/// new one once this has returned.
+pub fn replace(path: &Path, next: &Path) -> std::io::Result<()> {
+    fs::rename(next, path)?;
+    sync_names(folder(path))
+}
+
+/// Takes a file away; no power cut brings it back.
+pub fn remove(path: &Path) -> std::io::Result<()> {
+    fs::remove_file(path)?;
+    sync_names(folder(path))
+}
+
+/// Makes a folder, and those that it lies in, which no power cut takes away. One that is there is taken as it is.
+pub fn lasting_folder(path: &Path) -> std::io::Result<()> {
+    if path.is_dir() {
+        return Ok(());
+    }
+    lasting_folder(folder(path))?;
+    fs::create_dir(path)?;
+    sync_names(folder(path))
+}
+
+/// Has the names in a folder on the disk.
+#[cfg(unix)]
+fn sync_names(folder: &Path) -> std::io::Result<()> {
+    fs::File::open(folder)?.sync_all()
+}
+
+/// Elsewhere folders cannot be synced.
+#[cfg(not(unix))]
+fn sync_names(_folder: &Path) -> std::io::Result<()> {
     Ok(())
 }

@@ -2,11 +2,9 @@
 
 use std::path::Path;
 use std::process::Command;
-use std::time::Duration;
 
 use adit_db::Store;
-use adit_tests::oracle::random::Chance;
-use adit_tests::service::{Service, request};
+use adit_tests::service::Service;
 use adit_tests::{TestSite, adit};
 use serde_json::json;
 
@@ -97,77 +95,4 @@ fn edits_go_on_once_the_disk_has_room_again() {
     }
     service.end();
     assert_eq!(hardness_in(&site.path().join("site.db")), "6.0");
-}
-
-/// Killed while it edits, so many times (`ADIT_KILLS=200` by hand): what was acknowledged is there, whole, and the next service
-/// begins with it.
-#[test]
-fn a_service_that_is_killed_at_any_moment_loses_nothing_acknowledged() {
-    let times = std::env::var("ADIT_KILLS").ok().and_then(|text| text.parse().ok()).unwrap_or(4);
-    let site = TestSite::example("paper").built();
-    let (mut chance, mut acknowledged) = (Chance::new(7), 0);
-    for round in 0..times {
-        let service = Service::start(&site);
-        let (said, heard) = std::sync::mpsc::channel();
-        let (address, first) = (service.address.clone(), acknowledged);
-        let editing = std::thread::spawn(move || {
-            for value in first + 1.. {
-                let body = hardness("SQUAT", f64::from(value));
-                let answered =
-                    std::panic::catch_unwind(|| request(&address, "POST", "/api/edits", Some(&body)).0);
-                match answered {
-                    Ok(200) => said.send(value).unwrap(),
-                    _ => return,
-                }
-            }
-        });
-        std::thread::sleep(Duration::from_millis(50 + chance.below(500) as u64));
-        service.kill();
-        editing.join().unwrap();
-        acknowledged = heard.try_iter().last().unwrap_or(acknowledged);
-        let edits = site.sqlite3("SELECT new FROM history ORDER BY id");
-        let there = edits.last().map_or(0.0, |value| value.parse::<f64>().unwrap());
-        // one more may have been made than was acknowledged
-        assert!(
-            (0.0..=1.0).contains(&(there - f64::from(acknowledged))),
-            "round {round}: {there} of {acknowledged}"
-        );
-        let cell = site.sqlite3("SELECT hardness FROM robots WHERE state = 'SQUAT'").join(" ");
-        assert!(there == 0.0 || cell.parse() == Ok(there), "round {round}: half an edit: {cell} and {there}");
-        assert_eq!(site.sqlite3("PRAGMA integrity_check"), ["ok"], "round {round}");
-        acknowledged = there as i32;
-    }
-    assert!(acknowledged > 0, "nothing was edited");
-    site.adit("doctor", &[]).expect_status(0);
-}
-
-/// The disk gets full at the first write of an edit, then at the second, and so on, until the edit fits.
-#[test]
-fn an_edit_that_finds_the_disk_full_at_any_of_its_writes_leaves_all_as_it_was() {
-    let site = TestSite::example("paper").built();
-    let mut program = Command::new("sh");
-    program.args(["-c", "trap '' XFSZ; exec \"$0\" \"$@\""]).arg(adit());
-    let service = Service::start_by(program, &site, &["--listen", "127.0.0.1:0"]);
-    let edit = |value: f64| service.ask("POST", "/api/edits", Some(&hardness("SQUAT", value))).0;
-    assert_eq!(edit(3.0), 200);
-    let log = site.path().join("site.db-wal");
-    let cell = || site.sqlite3("SELECT hardness FROM robots WHERE state = 'SQUAT'").join(" ");
-    let mut refused = 0;
-    loop {
-        let size = std::fs::metadata(&log).map_or(0, |file| file.len());
-        room_for_files(&service, &(size + refused * 4_096).to_string());
-        let status = edit(4.0);
-        room_for_files(&service, "unlimited");
-        if status == 200 {
-            break;
-        }
-        assert_eq!((status, cell().as_str()), (500, "3.0"), "after {refused} writes");
-        refused += 1;
-        assert!(refused < 500, "it never fits");
-    }
-    assert!(refused > 0, "the disk was never full");
-    assert_eq!(cell(), "4.0");
-    service.end();
-    assert_eq!(hardness_in(&site.path().join("site.db")), "4.0");
-    site.adit("doctor", &[]).expect_status(0);
 }

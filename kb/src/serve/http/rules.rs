@@ -1,7 +1,7 @@
 //! The rule base: its files, tried and saved.
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use adit_engine::SourceFile;
 use axum::Json;
@@ -21,7 +21,7 @@ use crate::serve::gate::require;
 use crate::serve::role::{Caller, Role};
 use crate::serve::token::hex;
 use crate::site::base::Base;
-use crate::site::rules;
+use crate::site::{rules, whole};
 
 /// The longest rule file, bytes.
 const LONGEST: usize = 1 << 20;
@@ -253,17 +253,22 @@ fn replace(
         return Err(Fault::new(Code::RulesTests, message).with_problems(tests.failures));
     }
     let made = !folder.exists();
-    put(&path, text.as_deref())?;
-    let outcome = match desk.shared.settings.open().and_then(|site| desk.live.open_again(site)) {
+    let kept = Kept::of(&path, before.as_deref())?;
+    let taken = put(&path, text.as_deref()).and_then(|()| {
+        let site = desk.shared.settings.open()?;
+        desk.live.open_again(site).map_err(refused)
+    });
+    let outcome = match taken {
         Ok(outcome) => outcome,
-        Err(error) => {
-            put(&path, before.as_deref())?;
+        Err(fault) => {
+            kept.back();
             if made {
                 fs::remove_dir_all(&folder).ok();
             }
-            return Err(refused(error));
+            return Err(fault);
         }
     };
+    drop(kept);
     let doing = if text.is_some() { "saved" } else { "removed" };
     desk.publish(
         &outcome,
@@ -280,15 +285,51 @@ fn replace(
     })
 }
 
-/// Writes a file whole, or takes it away.
+/// A file as it was, beside itself: going back to it takes no room on the disk.
+struct Kept<'p> {
+    path: &'p Path,
+    beside: Option<PathBuf>,
+}
+
+impl<'p> Kept<'p> {
+    fn of(path: &'p Path, text: Option<&str>) -> Answered<Self> {
+        let kept = Self { path, beside: text.map(|_| path.with_extension("old")) };
+        let written = kept
+            .beside
+            .iter()
+            .zip(text)
+            .try_for_each(|(old, text)| whole::write_beside(old, text.as_bytes()));
+        written.map_err(|error| Error::io("write", path, &error))?;
+        Ok(kept)
+    }
+
+    /// On a disk that syncs nothing any more all is as it was for whoever reads the file.
+    fn back(&self) {
+        match &self.beside {
+            Some(beside) => whole::replace(self.path, beside),
+            None => whole::remove(self.path),
+        }
+        .ok();
+    }
+}
+
+impl Drop for Kept<'_> {
+    fn drop(&mut self) {
+        self.beside.as_ref().map(fs::remove_file);
+    }
+}
+
+/// Writes a file whole, or takes it away; no power cut undoes it.
 fn put(path: &Path, text: Option<&str>) -> Answered<()> {
     let done = match text {
         Some(text) => {
             let next = path.with_extension("new");
-            let made = path.parent().map_or(Ok(()), fs::create_dir_all);
-            made.and_then(|()| fs::write(&next, text)).and_then(|()| fs::rename(&next, path))
+            let made = path.parent().map_or(Ok(()), whole::lasting_folder);
+            let made = made.and_then(|()| whole::write_beside(&next, text.as_bytes()));
+            let made = made.and_then(|()| whole::replace(path, &next));
+            made.inspect_err(|_| drop(fs::remove_file(&next)))
         }
-        None => fs::remove_file(path),
+        None => whole::remove(path),
     };
     done.map_err(|error| Error::io("write", path, &error).into())
 }
