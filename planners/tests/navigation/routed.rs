@@ -77,7 +77,7 @@ fn the_robot_goes_on_its_knees_beneath_a_pipe_and_gets_up_behind_it() {
     let corridor = Corridor::new();
     let went = corridor.run(
         &mission([1.0, 1.5], [9.0, 1.5], Vec::new()),
-        &mut Says(|from, _, _: &[Met]| Some(beneath(from)), Vec::new()),
+        &mut Says(|[from, _]: [Point; 2], _, _: &[Met]| Some(beneath(from)), Vec::new()),
     );
     assert_eq!(went.ending, Ending::Arrived, "{went:?}");
     assert_eq!(went.changes, [(UPRIGHT, KNEELING), (KNEELING, UPRIGHT)]);

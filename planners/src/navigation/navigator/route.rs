@@ -74,8 +74,9 @@ impl Navigator<'_> {
             && let Some(building) = self.shapes.get(next.shape)
         {
             // it changes its shape there
-            let known = building.walls.iter().chain(&building.overhead);
-            let nearest = known.map(|barrier| barrier.distance(target)).fold(f64::INFINITY, f64::min);
+            let met = &self.barriers[self.obstacles_from..];
+            let there = building.walls.iter().chain(&building.overhead).chain(met);
+            let nearest = there.map(|barrier| barrier.distance(target)).fold(f64::INFINITY, f64::min);
             room = room.min(nearest - building.network.disc.radius);
         }
         let room = room.max(LEAST_ROOM_M);
