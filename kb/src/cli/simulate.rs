@@ -9,7 +9,7 @@ use adit_planners::pose::Pose;
 
 use super::args::{SimulateArgs, SiteArgs, heading};
 use super::build::open;
-use super::missions::{filmed, last_mission, show};
+use super::missions::{are_right, filmed, last_mission, show};
 use super::output::{either, remark};
 use super::picture::extension;
 use crate::answer::pick;
@@ -34,7 +34,7 @@ pub fn run(args: &SimulateArgs) -> Result<bool> {
     let live = Live::open(open(&site)?)?;
     let args = &in_own(args, live.site())?;
     if live.site().course().is_none() {
-        return super::drive::run(args, live);
+        return super::routed::run(args, live);
     }
     if args.tell {
         return told(args, live);
@@ -79,7 +79,7 @@ pub fn run(args: &SimulateArgs) -> Result<bool> {
         }
     }
     either(args.json, &rows[..], show)?;
-    Ok(rows.iter().all(|row| row.right != Some(false) && !row.collided))
+    Ok(are_right(&rows))
 }
 
 /// The arguments with the site's own database, where what comes of it is kept there.
@@ -127,7 +127,7 @@ fn told(args: &SimulateArgs, mut live: Live) -> Result<bool> {
     for text in &said {
         remark(text);
     }
-    Ok(rows.iter().all(|row| row.right != Some(false) && !row.collided))
+    Ok(are_right(&rows))
 }
 
 /// The robot that is asked for, and its floor plan.
@@ -236,7 +236,7 @@ fn missions(args: &SimulateArgs, floor: &Floor, known: &Floor) -> Result<Vec<Mis
         );
         return Err(Error::said(Code::SimulateImpossible, message, None));
     }
-    let heading = heading(args)?;
+    let heading = heading(args.heading)?;
     let mission = |seed| Mission { start: Pose { at: start, heading }, goal, obstacles: Vec::new(), seed };
     Ok((0..u64::from(args.missions)).map(|number| mission(args.seed.wrapping_add(number))).collect())
 }
