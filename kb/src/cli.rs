@@ -14,6 +14,7 @@ mod experiment;
 mod export;
 mod firm;
 mod fit;
+mod kept;
 mod lay;
 mod layer;
 mod learn;

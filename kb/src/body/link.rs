@@ -51,6 +51,8 @@ pub struct Link {
     heard: Receiver<Heard>,
     timeout: Duration,
     peer: Peer,
+    /// The last that was heard.
+    line: String,
 }
 
 impl Link {
@@ -73,7 +75,13 @@ impl Link {
         let (Some(input), Some(output)) = (child.stdin.take(), child.stdout.take()) else {
             return Err(cannot("it has no standard input and output"));
         };
-        Ok(Self { output: Some(Box::new(input)), heard: listen(output), timeout, peer: Peer::Program(child) })
+        Ok(Self {
+            output: Some(Box::new(input)),
+            heard: listen(output),
+            timeout,
+            peer: Peer::Program(child),
+            line: String::new(),
+        })
     }
 
     fn connect(address: &str, timeout: Duration) -> Result<Self, String> {
@@ -92,7 +100,13 @@ impl Link {
         stream.set_nodelay(true)?;
         stream.set_write_timeout(Some(timeout))?;
         let (input, output) = (stream.try_clone()?, stream.try_clone()?);
-        Ok(Self { output: Some(Box::new(output)), heard: listen(input), timeout, peer: Peer::Socket(stream) })
+        Ok(Self {
+            output: Some(Box::new(output)),
+            heard: listen(input),
+            timeout,
+            peer: Peer::Socket(stream),
+            line: String::new(),
+        })
     }
 
     /// Says something, and waits for the answer.
@@ -105,7 +119,10 @@ impl Link {
         self.nothing_unasked()?;
         self.say(text).map_err(|error| self.over_with(&format!("`{word}` cannot be said to it: {error}")))?;
         let answer = match self.heard.recv_timeout(self.timeout) {
-            Ok(Heard::Line(text)) => Answer::of_line(&text),
+            Ok(Heard::Line(text)) => {
+                self.line = text;
+                Answer::of_line(&self.line)
+            }
             Ok(Heard::Broken(why)) => Err(why),
             Err(RecvTimeoutError::Timeout) => {
                 let seconds = self.timeout.as_secs_f64();
@@ -116,6 +133,11 @@ impl Link {
             }
         };
         answer.map_err(|why| Ends::Unreadable(format!("the answer to `{word}` is no message: {why}")))
+    }
+
+    /// The last line that was heard, shortened.
+    pub fn line(&self) -> String {
+        shortened(&self.line)
     }
 
     /// Whether nothing is heard any more, within the timeout.

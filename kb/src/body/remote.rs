@@ -94,7 +94,7 @@ impl Remote {
             Answer::Hello(profile) => profile,
             other => return Err(unexpected("hello", "hello", &other)),
         };
-        let terms = Terms::of(profile)?;
+        let terms = Terms::of(profile).map_err(|why| self.in_line(&why))?;
         let profile = &terms.profile;
         let own = |used: &Used| {
             let name = used.name.as_ref().unwrap_or(&profile.shape);
@@ -113,7 +113,7 @@ impl Remote {
         self.shapes = used.iter().map(own).collect::<Result<_, _>>()?;
         self.directions = profile.directions as usize;
         self.range_m = Some(profile.range_m);
-        self.shape = self.number(&profile.shape)?;
+        self.shape = self.number(&profile.shape).map_err(|why| self.in_line(&why))?;
         self.terms = Some(terms);
         Ok(())
     }
@@ -141,11 +141,11 @@ impl Remote {
         };
         let wrong = self.terms.iter().flat_map(|terms| terms.wrong(&senses, self.time_s)).next();
         if let Some(wrong) = wrong {
-            return Err(format!("what the body sensed cannot be: {}", wrong.why));
+            return Err(self.in_line(&format!("what the body sensed cannot be: {}", wrong.why)));
         }
         let Senses { time_s, odometry, readings, contact, is_busy, shape } = senses;
         self.time_s = Some(time_s);
-        self.shape = self.number(&shape)?;
+        self.shape = self.number(&shape).map_err(|why| self.in_line(&why))?;
         Ok(Sensed {
             time_s,
             odometry: odometry.into(),
@@ -154,6 +154,13 @@ impl Remote {
             is_busy,
             shape: self.shape,
         })
+    }
+
+    /// What is wrong, with the line in which it was heard.
+    fn in_line(&self, why: &str) -> String {
+        let line =
+            self.link.as_ref().map_or_else(String::new, |link| format!(", in the line {}", link.line()));
+        format!("{why}{line}")
     }
 
     fn obey(&mut self, order: &Order) -> Result<(), String> {

@@ -15,16 +15,19 @@ use super::args::{SiteArgs, heading, timeout};
 use super::build::open;
 use super::output::{either, line, remark, table};
 use super::routed::point;
+use super::simulate::{may_begin, of_robot};
 use crate::body::conform::{Check, conform as examine};
-use crate::body::{Host, Link};
+use crate::body::{Host, Link, Outline};
 use crate::error::{Code, Error, Result};
 use crate::live::Live;
 use crate::navigation::ground::Ground;
+use crate::navigation::judge::Judges;
+use crate::navigation::missions::Stage;
 use crate::site::whole;
 
 #[derive(Args, Debug)]
 pub struct BodyArgs {
-    /// Folder of a site whose rooms are cut by state
+    /// Folder of a site whose rooms are cut by state, or whose map has walls; or such a map alone: a TOML file with `[floor_plan]`
     pub site: PathBuf,
     /// Where the robot stands: a place or `x,y`
     #[arg(allow_hyphen_values = true)]
@@ -70,37 +73,35 @@ pub fn body(args: &BodyArgs) -> Result<()> {
     let heading = heading(args.heading)?;
     let site = SiteArgs { site: args.site.clone(), db: None, rules: args.rules.clone(), json: false };
     let live = Live::open(open(&site)?)?;
+    let mission =
+        |at| Mission { start: Pose { at, heading }, goal: at, obstacles: Vec::new(), seed: args.seed };
+    if live.site().course().is_some() {
+        let (robot, floor) = of_robot(&live, args.robot.as_deref())?;
+        let at = floor.point(&args.start)?;
+        may_begin(&floor, at)?;
+        let stage = Stage::new(&floor, &Judges::new(&live.asked(), &floor.told)?)?;
+        let shapes = vec![Outline { name: robot, radius_m: floor.network.disc.radius }];
+        let shape = shape(args, &shapes, &[0])?;
+        let made = || stage.body(&mission(at));
+        return Robot { args, shapes, shape, senses: stage.senses(), made: &made }.answer();
+    }
     let ground = Ground::of(&live.fork(), args.robot.as_deref())?;
     let at = point(&live, &args.start)?;
-    let shape = shape(args, &ground, &ground.fitting(&live.fork(), at)?)?;
-    let mission = Mission { start: Pose { at, heading }, goal: at, obstacles: Vec::new(), seed: args.seed };
-    let robot = Robot { args, ground: &ground, shape, mission };
-    let Some(address) = &args.listen else {
-        return robot.serve(stdin().lock(), stdout().lock());
-    };
-    let cannot = |error: io::Error| {
-        Error::said(Code::BodyListen, format!("cannot listen at {address}: {error}"), None)
-    };
-    let listener = TcpListener::bind(address).map_err(cannot)?;
-    remark(&format!("listening at tcp://{}", listener.local_addr().map_err(cannot)?));
-    loop {
-        let (stream, _) = listener.accept().map_err(cannot)?;
-        stream.set_nodelay(true).map_err(cannot)?;
-        robot.serve(BufReader::new(stream.try_clone().map_err(cannot)?), stream)?;
-    }
+    let shapes = ground.outlines();
+    let shape = shape(args, &shapes, &ground.fitting(&live.fork(), at)?)?;
+    let (on, outfit) = ground.stage(shape);
+    let senses = (outfit.robot.sonar_range_m, outfit.robot.has_skirt);
+    let made = || mission(at).body(&on, &outfit).map_err(Error::of(Code::SimulateImpossible));
+    Robot { args, shapes, shape, senses, made: &made }.answer()
 }
 
-/// The shape in which it begins.
-fn shape(args: &BodyArgs, ground: &Ground, fitting: &[usize]) -> Result<usize> {
+/// The shape in which it begins: one of those that fit.
+fn shape(args: &BodyArgs, shapes: &[Outline], fitting: &[usize]) -> Result<usize> {
     let Some(state) = &args.state else { return Ok(fitting[0]) };
-    let fits = |shape: &usize| ground.states[*shape] == *state;
-    fitting.iter().copied().find(fits).ok_or_else(|| {
-        let all: Vec<&str> = fitting.iter().map(|shape| ground.states[*shape].as_str()).collect();
-        let message = format!(
-            "{} does not fit there in a state `{state}`; it fits in {}",
-            ground.robot,
-            all.join(", ")
-        );
+    fitting.iter().copied().find(|shape| shapes[*shape].name == *state).ok_or_else(|| {
+        let all: Vec<&str> = fitting.iter().map(|shape| shapes[*shape].name.as_str()).collect();
+        let message =
+            format!("the robot does not fit there in a state `{state}`; it fits in {}", all.join(", "));
         Error::said(Code::SimulateImpossible, message, None)
     })
 }
@@ -108,19 +109,37 @@ fn shape(args: &BodyArgs, ground: &Ground, fitting: &[usize]) -> Result<usize> {
 /// A robot that begins anew for each who drives it.
 struct Robot<'r> {
     args: &'r BodyArgs,
-    ground: &'r Ground,
+    shapes: Vec<Outline>,
+    /// In which it begins, by number.
     shape: usize,
-    mission: Mission,
+    /// How far it hears, and whether it has a skirt.
+    senses: (f64, bool),
+    made: &'r dyn Fn() -> Result<Simulator>,
 }
 
 impl Robot<'_> {
+    fn answer(&self) -> Result<()> {
+        let Some(address) = &self.args.listen else {
+            return self.serve(stdin().lock(), stdout().lock());
+        };
+        let cannot = |error: io::Error| {
+            Error::said(Code::BodyListen, format!("cannot listen at {address}: {error}"), None)
+        };
+        let listener = TcpListener::bind(address).map_err(cannot)?;
+        remark(&format!("listening at tcp://{}", listener.local_addr().map_err(cannot)?));
+        loop {
+            let (stream, _) = listener.accept().map_err(cannot)?;
+            stream.set_nodelay(true).map_err(cannot)?;
+            self.serve(BufReader::new(stream.try_clone().map_err(cannot)?), stream)?;
+        }
+    }
+
     fn serve(&self, mut input: impl BufRead, mut output: impl Write) -> Result<()> {
-        let (on, outfit) = self.ground.stage(self.shape);
-        let body = self.mission.body(&on, &outfit).map_err(Error::of(Code::SimulateImpossible))?;
-        let figures = (outfit.robot.sonar_range_m, outfit.robot.has_skirt);
-        let mut host = Host::new(body, (self.ground.outlines(), self.shape), figures);
-        let mut log = Log::begun(self.mission.start.at, self.shape, self.ground.states.len());
-        let (mut before, mut deepest_m) = (self.mission.start.at, f64::NEG_INFINITY);
+        let body = (self.made)()?;
+        let mut before = body.pose().at;
+        let mut host = Host::new(body, (self.shapes.clone(), self.shape), self.senses);
+        let mut log = Log::begun(before, self.shape, self.shapes.len());
+        let mut deepest_m = f64::NEG_INFINITY;
         let served = host.serve(&mut input, &mut output, |body| {
             let at = body.pose().at;
             log.note(before.distance(at), at, body.shape());
@@ -139,16 +158,15 @@ impl Robot<'_> {
         let Some(file) = &self.args.truth else { return Ok(()) };
         let pose = body.pose();
         let metres: serde_json::Map<_, _> = self
-            .ground
-            .states
+            .shapes
             .iter()
             .zip(&log.metres)
             .filter(|(_, metres)| **metres > 0.0)
-            .map(|(state, metres)| (state.clone(), json!(metres)))
+            .map(|(state, metres)| (state.name.clone(), json!(metres)))
             .collect();
         let truth = json!({
             "x": pose.at.x, "y": pose.at.y, "heading": pose.heading.to_degrees(),
-            "state": self.ground.states[body.shape()], "length": log.metres.iter().sum::<f64>(),
+            "state": self.shapes[body.shape()].name, "length": log.metres.iter().sum::<f64>(),
             "by_state": metres, "touches": body.touches().iter().filter(|touch| touch.by_robot).count(),
             "overlap": deepest_m.is_finite().then_some(deepest_m), "seconds": body.time_s(),
         });

@@ -1,24 +1,20 @@
 //! `adit simulate` on a site whose rooms are cut by state: a robot that changes its shape drives the site's own routes.
 
-use std::path::Path;
 use std::sync::Arc;
 
-use adit_db::Store;
-use adit_db::history::Author;
 use adit_engine::RuleBase;
 use adit_planners::geometry::Point;
 use adit_planners::navigation::Mission;
 use adit_planners::simulator::Film;
 
 use super::args::{SimulateArgs, heading};
-use super::missions::{are_right, filmed, last_mission, show};
+use super::kept::{Kept, Of};
+use super::missions::{are_right, filmed, show};
 use super::output::{either, remark};
 use crate::error::{Code, Error, Result};
-use crate::fit::Row as Traversal;
 use crate::live::Live;
 use crate::navigation::ground::Ground;
-use crate::navigation::journal::record;
-use crate::navigation::missions::{Journal, Row};
+use crate::navigation::missions::Row;
 use crate::navigation::routed::Missions;
 use crate::plan::rules::{Kind, load_over};
 use crate::site::base::Base;
@@ -28,11 +24,11 @@ use crate::words::progress::Bar;
 /// Drives missions and prints a row each; `false` where one ended otherwise than it should.
 pub fn run(args: &SimulateArgs, mut live: Live) -> Result<bool> {
     check(args)?;
-    let setting = Setting::of(&live, args.robot.as_deref(), args.tell)?;
+    let setting = Setting::new(&live, args.robot.as_deref(), args.tell)?;
     let mut on = setting.missions(&mut live, args.tell);
     let missions = missions(args, &on)?;
     let wanted = filmed(args, &missions)?.is_some();
-    let mut kept = Kept::open(&setting, args.db.as_deref(), args.keep)?;
+    let mut kept = Kept::open(setting.of(), args.db.as_deref(), args.keep)?;
     let bar = Bar::new("missions", missions.len() as u64);
     let (mut rows, mut said, mut film): (Vec<Row>, Vec<String>, Option<Film>) = Default::default();
     for (index, mission) in missions.iter().enumerate() {
@@ -65,8 +61,8 @@ pub(super) struct Setting {
 }
 
 impl Setting {
-    /// Of a site as it is now, for one of its robots; `tells` where it is to be told what the robot meets.
-    pub fn of(live: &Live, robot: Option<&str>, tells: bool) -> Result<Self> {
+    /// A site as it is now, for one of its robots; `tells` where it is to be told what the robot meets.
+    pub fn new(live: &Live, robot: Option<&str>, tells: bool) -> Result<Self> {
         if tells {
             live.site().needs_folder()?;
         }
@@ -79,63 +75,14 @@ impl Setting {
         Ok(Self { ground, rules, bases, name: live.site().site().name.clone() })
     }
 
+    /// Of whom missions are kept.
+    pub fn of(&self) -> Of<'_> {
+        Of { world: &self.name, bases: &self.bases, states: &self.ground.states, robot: &self.ground.robot }
+    }
+
     pub fn missions<'l>(&'l self, live: &'l mut Live, tells: bool) -> Missions<'l> {
         Missions { live, ground: &self.ground, rules: &self.rules, tells }
     }
-}
-
-/// Where missions are kept.
-pub(super) struct Kept<'s> {
-    setting: &'s Setting,
-    store: Option<Store>,
-    /// The number of the last one that is kept already.
-    pub before: usize,
-    /// Whether what the robot measured is added to the site's traversals.
-    has_traversals: bool,
-}
-
-impl<'s> Kept<'s> {
-    pub fn open(setting: &'s Setting, db: Option<&Path>, has_traversals: bool) -> Result<Self> {
-        let mut store = db.map(Store::open_for_worlds).transpose()?;
-        let before = match &mut store {
-            Some(store) => store.snapshot(|tx| last_mission(tx, &setting.name))?,
-            None => 0,
-        };
-        Ok(Self { setting, store, before, has_traversals })
-    }
-
-    /// Keeps a mission, which is one of what the words say.
-    pub fn keep(&mut self, live: &Live, words: &str, (row, entries, decided): Journal) -> Result<Row> {
-        let Setting { ground, bases, name, .. } = self.setting;
-        if let Some(store) = &mut self.store {
-            let record = record((name, bases), &row, &ground.states, &entries, decided);
-            store.transaction(|tx| tx.keep_mission(&record))?;
-        }
-        // who is not kept has no number of its own, by which what was measured is told apart
-        if self.has_traversals {
-            let author = Author { who: ground.robot.clone(), why: String::new() };
-            let mission = format!("{words} {} of {name}", row.mission);
-            live.site().add_traversals(
-                &traversals(&mission, &ground.robot, &row),
-                Some("seconds"),
-                &author,
-            )?;
-        }
-        Ok(row)
-    }
-}
-
-/// What the robot measured on its way, as `adit fit` reads it.
-fn traversals(mission: &str, robot: &str, row: &Row) -> Vec<Traversal> {
-    let of_state = |(state, metres): (&String, &f64)| Traversal {
-        mission: Some(mission.to_owned()),
-        robot: Some(robot.to_owned()),
-        state: Some(state.clone()),
-        distance: *metres,
-        measured: row.seconds,
-        ..Traversal::default()
-    };
-    row.by_state.iter().map(of_state).collect()
 }
 
 /// The missions that are drawn, or the one from START to GOAL.

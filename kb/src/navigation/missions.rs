@@ -6,14 +6,16 @@ use std::time::Instant;
 use adit_engine::Considered;
 use adit_planners::geometry::{Point, Segment};
 use adit_planners::navigation::{
-    Building, Drivable, Ending, Entry, Judge, Mission, Outcome, Outfit, Trip, WayFacts, draw,
+    Building, Drivable, Ending, Entry, Judge, Mission, Outcome, Outfit, Trip, WayFacts, draw, trip,
 };
-use adit_planners::simulator::Film;
+use adit_planners::pose::Pose;
+use adit_planners::simulator::{Film, Simulator};
 use rayon::prelude::*;
 use serde::Serialize;
 
 use super::floor::Floor;
 use super::judge::{Considers, Judges, Noting};
+use crate::body::Remote;
 use crate::error::{Code, Error, Result};
 
 #[derive(Clone, Debug, Serialize)]
@@ -303,6 +305,46 @@ fn judged(
         optimum_m: possible.optimum_m,
     });
     Ok(Row { milliseconds, ..Row::new((number, mission), &outcome, judged, radius) })
+}
+
+impl Stage<'_> {
+    /// The robot that would run a mission, where it begins.
+    pub fn body(&self, mission: &Mission) -> Result<Simulator> {
+        let on = Drivable::of(&self.walls, &self.building);
+        mission.body(&on, &self.outfit).map_err(Error::of(Code::SimulateImpossible))
+    }
+
+    /// How far the sonar of that robot hears, and whether it has a skirt.
+    pub const fn senses(&self) -> (f64, bool) {
+        (self.outfit.robot.sonar_range_m, self.outfit.robot.has_skirt)
+    }
+
+    /// Has a robot drive to a goal of which nobody knows where it really is; `hear` is told what happens when it does.
+    pub fn drive<J: Considers>(
+        &self,
+        judge: &mut J,
+        number: usize,
+        (start, goal): (Pose, Point),
+        body: &mut Remote,
+        mut hear: impl FnMut(&Entry),
+    ) -> Journal {
+        let before = Instant::now();
+        let mut outfit = self.outfit;
+        outfit.model.sonar_range_m = body.range_m().unwrap_or(outfit.model.sonar_range_m);
+        let mut noting = Noting::new(judge);
+        let mut entries = Vec::new();
+        let on = (std::slice::from_ref(&self.building), body.shape());
+        let trip = trip(body, on, (start, goal), &outfit, None, &mut noting, |entry| {
+            hear(&entry);
+            entries.push(entry);
+        });
+        let row = Row {
+            silence: body.silence().map(str::to_owned),
+            milliseconds: before.elapsed().as_secs_f64() * 1e3,
+            ..Row::of_trip(number, [start.at, goal], &trip)
+        };
+        (row, entries, noting.decided)
+    }
 }
 
 /// The word for an ending, as rows and the journal have it.
