@@ -196,7 +196,7 @@ mod tests {
     #[test]
     fn a_number_is_the_same_number_on_the_other_side_to_the_bit() {
         for value in
-            [0.1 + 0.2, 1.0 / 3.0, -1.234_567_890_123_456_7e-7, f64::MIN_POSITIVE, 6.283_185_307_179_586]
+            [0.1 + 0.2, 1.0 / 3.0, -1.234_567_890_123_456_7e-7, f64::MIN_POSITIVE, std::f64::consts::TAU]
         {
             let order = Order::Move { distance_m: value, speed_m_s: 1.0 };
             let Ok(Order::Move { distance_m, .. }) = Order::of_line(&line(&order)) else {

@@ -161,18 +161,14 @@ fn show(row: &Row, site: &str) {
     line(&format!("mission {} of {site}: {ended}", row.mission));
     let states: Vec<String> =
         row.by_state.iter().map(|(state, metres)| format!("{state} {} m", number(*metres))).collect();
+    let states = if states.is_empty() { String::new() } else { format!(" ({})", states.join(", ")) };
     line(&format!(
-        "{} m by its wheels in {} s ({}), {} change{} of shape",
+        "{} m by its wheels{states} in {} s, {}, {} closed, {} of shape, {} felt",
         number(row.length),
         number(row.seconds),
-        if states.is_empty() { "it stood".to_owned() } else { states.join(", ") },
-        row.changes,
-        if row.changes == 1 { "" } else { "s" },
-    ));
-    line(&format!(
-        "{}, {} closed, {} felt",
         counted(row.detours as usize, "detour"),
         counted(row.replans as usize, "way"),
+        counted(row.changes as usize, "change"),
         if row.touches == 1 { "1 touch".to_owned() } else { format!("{} touches", row.touches) },
     ));
 }
