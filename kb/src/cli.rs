@@ -3,6 +3,7 @@
 mod args;
 mod ask;
 mod beside;
+mod body;
 mod build;
 mod close;
 mod curve;
@@ -13,6 +14,7 @@ mod experiment;
 mod export;
 mod firm;
 mod fit;
+mod kept;
 mod lay;
 mod layer;
 mod learn;
@@ -23,6 +25,7 @@ mod output;
 mod pages;
 mod picture;
 mod route;
+mod routed;
 mod rules;
 mod serve;
 mod simulate;
@@ -104,6 +107,12 @@ pub enum Verb {
     Tasks(tasks::TasksArgs),
     /// Missions of a simulated robot on a floor plan or on the routes of a site, with obstacles that it does not know
     Simulate(args::SimulateArgs),
+    /// A mission of a robot that is heard by lines of JSON, on the routes of a site
+    Drive(drive::DriveArgs),
+    /// Our simulated robot on a site, as such a robot: it answers lines of JSON
+    Body(body::BodyArgs),
+    /// Whether a robot that answers lines of JSON does what the protocol asks, check by check
+    Conform(body::ConformArgs),
     /// A scenario of a robot that learns, over many seeds: what each strategy of repair costs (CSV, picture)
     Experiment(experiment::ExperimentArgs),
     /// Who changed what, when and why
@@ -160,6 +169,9 @@ pub fn run(cli: &Cli) -> ExitCode {
         Verb::Draw(args) => (args.site.json, picture::run(args).map(|()| 0)),
         Verb::Tasks(args) => (args.json, tasks::run(args).map(|found| u8::from(!found))),
         Verb::Simulate(args) => (args.json, simulate::run(args).map(|right| u8::from(!right))),
+        Verb::Drive(args) => (args.json, drive::run(args).map(|arrived| u8::from(!arrived))),
+        Verb::Body(args) => (false, body::body(args).map(|()| 0)),
+        Verb::Conform(args) => (args.json, body::conform(args).map(|held| u8::from(!held))),
         Verb::Experiment(args) => (args.json, experiment::run(args).map(|found| u8::from(!found))),
         Verb::History(args) => (args.site.json, tune::history(args).map(|()| 0)),
         Verb::Undo(args) => (args.site.json, tune::undo(args).map(|()| 0)),

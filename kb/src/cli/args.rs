@@ -1,6 +1,7 @@
 //! What several verbs take.
 
 use std::path::PathBuf;
+use std::time::Duration;
 
 use clap::Args;
 
@@ -108,11 +109,22 @@ pub struct SimulateArgs {
     pub json: bool,
 }
 
-/// The heading at the start, radians.
-pub fn heading(args: &SimulateArgs) -> Result<f64> {
-    if (-360.0..=360.0).contains(&args.heading) {
-        return Ok(args.heading.to_radians());
+/// How long an answer is waited for.
+pub fn timeout(seconds: f64) -> Result<Duration> {
+    const MOST_S: f64 = 3600.0;
+    if seconds > 0.0 && seconds <= MOST_S {
+        return Ok(Duration::from_secs_f64(seconds));
     }
-    let message = format!("--heading {:?} is no heading; expected degrees from -360 to 360", args.heading);
+    let message =
+        format!("--timeout {seconds:?} is no time; expected seconds, more than 0 and at most {MOST_S}");
+    Err(Error::said(Code::BodyTimeout, message, None))
+}
+
+/// The heading at the start, radians.
+pub fn heading(degrees: f64) -> Result<f64> {
+    if (-360.0..=360.0).contains(&degrees) {
+        return Ok(degrees.to_radians());
+    }
+    let message = format!("--heading {degrees:?} is no heading; expected degrees from -360 to 360");
     Err(Error::said(Code::SimulateHeading, message, None))
 }

@@ -1,133 +1,174 @@
-//! `adit simulate` on a site whose rooms are cut by state: a robot that changes its shape drives the site's own routes.
+//! `adit drive`: a mission of a robot that is heard by lines of JSON, on the routes of a site or on a floor plan.
 
-use adit_db::Store;
-use adit_planners::geometry::Point;
-use adit_planners::navigation::Mission;
-use adit_planners::simulator::Film;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
 
-use super::args::{SimulateArgs, heading};
-use super::missions::{filmed, last_mission, show};
-use super::output::{either, remark};
-use crate::error::{Code, Error, Result};
-use crate::fit::Row as Traversal;
+use adit_planners::pose::Pose;
+use clap::Args;
+
+use super::args::{SiteArgs, heading, timeout};
+use super::build::open;
+use super::kept::{Kept, Of};
+use super::output::{either, line, remark};
+use super::routed::{Setting, point};
+use super::simulate::{may_begin, of_robot, rules_of};
+use crate::body::{Link, Remote, Used};
+use crate::error::Result;
 use crate::live::Live;
-use crate::navigation::ground::Ground;
-use crate::navigation::journal::record;
-use crate::navigation::missions::Row;
-use crate::navigation::routed::Missions;
-use crate::plan::rules::{Kind, load_over};
-use crate::site::base::Base;
-use crate::site::whole;
-use crate::words::progress::Bar;
+use crate::navigation::judge::{Judges, RuleJudge};
+use crate::navigation::missions::{Row, Stage, refuse};
+use crate::navigation::reporting::{Reporting, Reports};
+use crate::words::number::{counted, number};
 
-/// Drives missions and prints a row each; `false` where one ended otherwise than it should.
-pub fn run(args: &SimulateArgs, mut live: Live) -> Result<bool> {
-    check(args)?;
-    if args.tell {
+#[derive(Args, Debug)]
+pub struct DriveArgs {
+    /// Folder of a site whose rooms are cut by state, or whose map has walls; or such a map alone: a TOML file with `[floor_plan]`
+    pub site: PathBuf,
+    /// Where the robot stands: a place or `x,y`
+    #[arg(allow_hyphen_values = true)]
+    pub start: String,
+    /// Where to go, likewise
+    #[arg(allow_hyphen_values = true)]
+    pub goal: String,
+    /// The robot: a program that is started, with its arguments, in quotes; or `tcp://HOST:PORT`
+    #[arg(long, value_name = "COMMAND")]
+    pub body: String,
+    /// A robot that does not answer for so long is not heard any more
+    #[arg(long, value_name = "SECONDS", default_value_t = 10.0)]
+    pub timeout: f64,
+    /// Where it looks at first, in degrees
+    #[arg(long, default_value_t = 0.0, allow_hyphen_values = true)]
+    pub heading: f64,
+    /// Which robot of the site it is, where that has several
+    #[arg(long)]
+    pub robot: Option<String>,
+    /// Folder of *.rhai files, instead of the site's own or the shipped ones
+    #[arg(long, value_name = "DIR")]
+    pub rules: Option<PathBuf>,
+    /// Keep the mission with its journal in this database
+    #[arg(long, value_name = "FILE")]
+    pub db: Option<PathBuf>,
+    /// Keep it in the site's own, and what was measured for `adit fit`
+    #[arg(long, conflicts_with = "db")]
+    pub keep: bool,
+    /// Tell the site what the robot meets, as `adit simulate` does
+    #[arg(long)]
+    pub tell: bool,
+    /// Print how it went as JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Drives a mission; `false` where it did not arrive.
+pub fn run(args: &DriveArgs) -> Result<bool> {
+    let driver = Driver { args, timeout: timeout(args.timeout)?, heading: heading(args.heading)? };
+    let site = SiteArgs { site: args.site.clone(), db: None, rules: args.rules.clone(), json: args.json };
+    let live = Live::open(open(&site)?)?;
+    if args.keep || args.tell {
         live.site().needs_folder()?;
     }
-    let ground = Ground::of(&live.fork(), args.robot.as_deref())?;
-    let (rules, bases, remarks) = load_over(Kind::Navigation, &live.site().site().folder)?;
-    for text in &remarks {
-        remark(text);
-    }
-    let bases = bases.iter().map(Base::name).collect::<Vec<_>>().join("\n");
-    let name = live.site().site().name.clone();
-    let mut on = Missions { live: &mut live, ground: &ground, rules: &rules, tells: args.tell };
-    let missions = missions(args, &on)?;
-    let wanted = filmed(args, &missions)?.is_some();
-    let mut store = args.db.as_ref().map(Store::open_for_worlds).transpose()?;
-    let before = match &mut store {
-        Some(store) => store.snapshot(|tx| last_mission(tx, &name))?,
-        None => 0,
+    let own = args.keep.then(|| live.site().database().to_owned());
+    let db = own.as_deref().or(args.db.as_deref());
+    let (row, world, said) = if live.site().course().is_some() {
+        driver.on_floor(live, db)?
+    } else {
+        driver.on_routes(live, db)?
     };
-    let bar = Bar::new("missions", missions.len() as u64);
-    let (mut rows, mut said, mut film): (Vec<Row>, Vec<String>, Option<Film>) = Default::default();
-    for (index, mission) in missions.iter().enumerate() {
-        let is_filmed = wanted && index + 1 == args.mission;
-        let ((row, entries, decided), told) =
-            on.run((before + index + 1, mission), is_filmed.then_some(&mut film))?;
-        said.extend(told);
-        if let Some(store) = &mut store {
-            let record = record((&name, &bases), &row, &ground.states, &entries, decided);
-            store.transaction(|tx| tx.keep_mission(&record))?;
-        }
-        // who is not kept has no number of its own, by which what was measured is told apart
-        if args.keep {
-            let author = adit_db::history::Author { who: ground.robot.clone(), why: String::new() };
-            on.live.site().add_traversals(
-                &traversals(&name, &ground.robot, &row),
-                Some("seconds"),
-                &author,
-            )?;
-        }
-        rows.push(row);
-        bar.step();
-    }
-    drop(bar);
-    if let (Some(path), Some(film)) = (&args.film, film) {
-        whole::write(path, film.svg(args.speed).as_bytes())?;
-        remark(&format!("{}: mission {}", path.display(), args.mission));
-    }
-    either(args.json, &rows[..], show)?;
+    either(args.json, &row, |row| show(row, &world))?;
     for text in &said {
         remark(text);
     }
-    Ok(rows.iter().all(|row| row.right != Some(false) && !row.collided))
+    Ok(row.ending == "arrived")
 }
 
-/// What the robot measured on its way, as `adit fit` reads it.
-fn traversals(site: &str, robot: &str, row: &Row) -> Vec<Traversal> {
-    let of_state = |(state, metres): (&String, &f64)| Traversal {
-        mission: Some(format!("simulated mission {} of {site}", row.mission)),
-        robot: Some(robot.to_owned()),
-        state: Some(state.clone()),
-        distance: *metres,
-        measured: row.seconds,
-        ..Traversal::default()
+/// A mission, the name of its world, and what the site was told, and what followed, in sentences.
+type Driven = (Row, String, Vec<String>);
+
+struct Driver<'a> {
+    args: &'a DriveArgs,
+    timeout: Duration,
+    /// Radians.
+    heading: f64,
+}
+
+impl Driver<'_> {
+    fn greet(&self, used: &[Used]) -> Remote {
+        Remote::greet(Link::open(&self.args.body, self.timeout), used)
+    }
+
+    /// Over rooms that are cut by state.
+    fn on_routes(&self, mut live: Live, db: Option<&Path>) -> Result<Driven> {
+        let args = self.args;
+        let setting = Setting::new(&live, args.robot.as_deref(), args.tell)?;
+        let (at, goal) = (point(&live, &args.start)?, point(&live, &args.goal)?);
+        setting.ground.fitting(&live.fork(), at)?;
+        let mut kept = Kept::open(setting.of(), db, args.keep)?;
+        let mut on = setting.missions(&mut live, args.tell);
+        let mut body = self.greet(&setting.ground.used());
+        let driven = on.drive(kept.before + 1, (Pose { at, heading: self.heading }, goal), &mut body);
+        body.bye();
+        let (journal, said) = driven?;
+        let row = kept.keep(on.live, WORDS, journal)?;
+        Ok((row, setting.name.clone(), said))
+    }
+
+    /// Over the network of a floor plan, for a body that stays in its shape.
+    fn on_floor(&self, mut live: Live, db: Option<&Path>) -> Result<Driven> {
+        let args = self.args;
+        let (robot, floor) = of_robot(&live, args.robot.as_deref())?;
+        let bases = rules_of(live.site());
+        let (at, goal) = (floor.point(&args.start)?, floor.point(&args.goal)?);
+        may_begin(&floor, at)?;
+        let of = Of { world: &floor.plan.name, bases: &bases, states: &[], robot: &robot };
+        let mut kept = Kept::open(of, db, args.keep)?;
+        let number = kept.before + 1;
+        let stage = Stage::new(&floor, &Judges::new(&live.asked(), &floor.told)?)?;
+        let ends = (Pose { at, heading: self.heading }, goal);
+        let used = [Used { name: None, radius_m: floor.network.disc.radius }];
+        let (journal, said) = if args.tell {
+            let reports = Reports::default();
+            let plan = |live: &Live, robot: &str| Ok(of_robot(live, Some(robot))?.1);
+            let mut judge = Reporting::new(&mut live, &reports, plan, (&robot, number))?;
+            let mut body = self.greet(&used);
+            let journal = stage.drive(&mut judge, number, ends, &mut body, |entry| reports.hear(entry));
+            body.bye();
+            refuse(judge.trouble())?;
+            (journal, judge.said)
+        } else {
+            let mut judge = RuleJudge::of_mission(&live.asked(), &floor.told)?;
+            let mut body = self.greet(&used);
+            let journal = stage.drive(&mut judge, number, ends, &mut body, |_| {});
+            body.bye();
+            refuse(judge.trouble())?;
+            (journal, Vec::new())
+        };
+        let row = kept.keep(&live, WORDS, journal)?;
+        Ok((row, floor.plan.name.clone(), said))
+    }
+}
+
+/// What is kept in traversals is one of these.
+const WORDS: &str = "mission";
+
+fn show(row: &Row, site: &str) {
+    let ended = match (row.ending, &row.silence) {
+        ("arrived", _) => "it arrived, by its own account".to_owned(),
+        ("no_way", _) => "it found no way".to_owned(),
+        ("lost", _) => "it does not know where it is".to_owned(),
+        ("silent", Some(why)) => format!("it is not heard any more: {why}"),
+        _ => "it gave up".to_owned(),
     };
-    row.by_state.iter().map(of_state).collect()
-}
-
-/// The missions that are drawn, or the one from START to GOAL.
-fn missions(args: &SimulateArgs, on: &Missions<'_>) -> Result<Vec<Mission>> {
-    let (Some(start), Some(goal)) = (&args.start, &args.goal) else {
-        return on.drawn(args.missions as usize, args.seed);
-    };
-    let heading = heading(args)?;
-    let ends = [point(on, start)?, point(on, goal)?];
-    Ok((0..u64::from(args.missions))
-        .map(|number| on.between(ends, heading, args.seed.wrapping_add(number)))
-        .collect())
-}
-
-/// A place by its name, or a point `x,y`.
-fn point(on: &Missions<'_>, name: &str) -> Result<Point> {
-    let view = on.live.view();
-    let graph = view.graph();
-    let end = graph.end(name).ok_or_else(|| {
-        let help =
-            crate::words::suggest::did_you_mean(name, graph.places.iter().map(|place| place.place.as_str()));
-        Error::said(
-            Code::PlanUnknownPlace,
-            format!("`{name}` is no place of the site, and no point `x,y`"),
-            help,
-        )
-    })?;
-    Ok(graph.point(&end))
-}
-
-/// Refuses what is for maps of walls alone.
-fn check(args: &SimulateArgs) -> Result<()> {
-    let asked = [
-        ("--learn", args.learn.is_some()),
-        ("--learned", args.learned),
-        ("--drive", args.drive.is_some()),
-        ("--curve", args.curve.is_some()),
-    ];
-    let Some((flag, _)) = asked.into_iter().find(|(_, is_asked)| *is_asked) else { return Ok(()) };
-    let message = format!(
-        "{flag} is for maps with `[floor_plan]`; this site is cut into rooms, whose routes are driven"
-    );
-    Err(Error::said(Code::SimulateNoFloorPlan, message, None))
+    line(&format!("mission {} of {site}: {ended}", row.mission));
+    let states: Vec<String> =
+        row.by_state.iter().map(|(state, metres)| format!("{state} {} m", number(*metres))).collect();
+    let states = if states.is_empty() { String::new() } else { format!(" ({})", states.join(", ")) };
+    line(&format!(
+        "{} m by its wheels{states} in {} s, {}, {} closed, {} of shape, {} felt",
+        number(row.length),
+        number(row.seconds),
+        counted(row.detours as usize, "detour"),
+        counted(row.replans as usize, "way"),
+        counted(row.changes as usize, "change"),
+        if row.touches == 1 { "1 touch".to_owned() } else { format!("{} touches", row.touches) },
+    ));
 }

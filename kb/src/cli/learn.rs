@@ -32,7 +32,7 @@ pub fn run(
     asked: &Asked<'_>,
 ) -> Result<bool> {
     let world = floor.plan.name.as_str();
-    let start = Pose { at: floor.point(start)?, heading: heading(args)? };
+    let start = Pose { at: floor.point(start)?, heading: heading(args.heading)? };
     if !floor.plan.is_free(start.at) {
         let message = format!(
             "no robot can begin at ({:?}, {:?}): that is outside of the plan, or in a wall",

@@ -6,7 +6,7 @@ use adit_planners::navigation::Mission;
 use super::args::SimulateArgs;
 use super::output::{line, table};
 use crate::error::{Code, Error, Result};
-use crate::navigation::missions::Row;
+use crate::navigation::missions::{Row, Truth};
 use crate::words::number::{counted, number};
 
 /// The mission of which a film is wanted.
@@ -29,7 +29,7 @@ pub(super) fn last_mission(tx: &mut Tx<'_>, world: &str) -> Result<usize> {
 pub(super) fn show(rows: &[Row]) {
     let cells = rows.iter().map(|row| {
         let over = row.over_optimum().map_or_else(String::new, |over| format!("{over:.3}"));
-        let judged = match row.right {
+        let judged = match row.right() {
             Some(true) => "",
             Some(false) => "WRONG",
             None => "not judged",
@@ -37,13 +37,13 @@ pub(super) fn show(rows: &[Row]) {
         vec![
             row.mission.to_string(),
             row.ending.to_owned(),
-            row.obstacles.to_string(),
+            row.truth.as_ref().map_or_else(String::new, |truth| truth.obstacles.to_string()),
             number(row.length),
             over,
             row.detours.to_string(),
             row.replans.to_string(),
             format!("{:.0}", row.seconds),
-            if row.collided { "COLLIDED".to_owned() } else { judged.to_owned() },
+            if row.has_collided() { "COLLIDED".to_owned() } else { judged.to_owned() },
         ]
     });
     table(
@@ -63,19 +63,20 @@ fn summary(rows: &[Row]) {
         count("no_way"),
         count("lost"),
         count("gave_up"),
-        rows.iter().filter(|row| row.right == Some(false)).count(),
-        rows.iter().filter(|row| row.right.is_none()).count(),
-        rows.iter().filter(|row| row.collided).count(),
+        rows.iter().filter(|row| row.right() == Some(false)).count(),
+        rows.iter().filter(|row| row.right().is_none()).count(),
+        rows.iter().filter(|row| row.has_collided()).count(),
         touches,
         if touches == 1 { "" } else { "es" },
     ));
-    if rows.iter().any(|row| row.right.is_none()) {
+    if rows.iter().any(|row| row.right().is_none()) {
         line("not judged: rules let nobody through some doorway, and the judge knows of walls alone");
     }
     let possible = |with_room, radius| {
-        let of = rows
-            .iter()
-            .filter(move |row| row.possible_with_room == Some(with_room) && row.possible == Some(radius));
+        let is_so = move |truth: &Truth| {
+            truth.possible_with_room == Some(with_room) && truth.possible == Some(radius)
+        };
+        let of = rows.iter().filter(move |row| row.truth.as_ref().is_some_and(is_so));
         let arrived = of.clone().filter(|row| row.ending == "arrived").count();
         (of.count(), arrived)
     };
@@ -91,8 +92,11 @@ fn summary(rows: &[Row]) {
         ("replans", rows.iter().map(|row| f64::from(row.replans)).collect()),
         ("detours", rows.iter().map(|row| f64::from(row.detours)).collect()),
         ("seconds by the robot's clock", rows.iter().map(|row| row.seconds).collect()),
-        ("metres from the goal", arrived().map(|row| row.miss).collect()),
-        ("worst error of position", rows.iter().map(|row| row.worst_error).collect()),
+        ("metres from the goal", arrived().filter_map(|row| Some(row.truth.as_ref()?.miss)).collect()),
+        (
+            "worst error of position",
+            rows.iter().filter_map(|row| Some(row.truth.as_ref()?.worst_error)).collect(),
+        ),
     ];
     let spread = |(what, mut values): (&str, Vec<f64>)| {
         values.sort_by(f64::total_cmp);
@@ -101,4 +105,9 @@ fn summary(rows: &[Row]) {
         vec![what.to_owned(), figure(0.5), figure(0.9), figure(0.99), figure(1.0)]
     };
     table(&["", "median", "90 %", "99 %", "worst"], spreads.map(spread));
+}
+
+/// Whether all ended as they should, as far as that is judged.
+pub(super) fn are_right(rows: &[Row]) -> bool {
+    rows.iter().all(|row| row.right() != Some(false) && !row.has_collided())
 }

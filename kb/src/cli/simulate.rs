@@ -4,12 +4,13 @@ use std::any::Any;
 use std::path::Path;
 
 use adit_db::Store;
+use adit_planners::geometry::Point;
 use adit_planners::navigation::Mission;
 use adit_planners::pose::Pose;
 
 use super::args::{SimulateArgs, SiteArgs, heading};
 use super::build::open;
-use super::missions::{filmed, last_mission, show};
+use super::missions::{are_right, filmed, last_mission, show};
 use super::output::{either, remark};
 use super::picture::extension;
 use crate::answer::pick;
@@ -34,7 +35,7 @@ pub fn run(args: &SimulateArgs) -> Result<bool> {
     let live = Live::open(open(&site)?)?;
     let args = &in_own(args, live.site())?;
     if live.site().course().is_none() {
-        return super::drive::run(args, live);
+        return super::routed::run(args, live);
     }
     if args.tell {
         return told(args, live);
@@ -79,7 +80,7 @@ pub fn run(args: &SimulateArgs) -> Result<bool> {
         }
     }
     either(args.json, &rows[..], show)?;
-    Ok(rows.iter().all(|row| row.right != Some(false) && !row.collided))
+    Ok(are_right(&rows))
 }
 
 /// The arguments with the site's own database, where what comes of it is kept there.
@@ -127,11 +128,11 @@ fn told(args: &SimulateArgs, mut live: Live) -> Result<bool> {
     for text in &said {
         remark(text);
     }
-    Ok(rows.iter().all(|row| row.right != Some(false) && !row.collided))
+    Ok(are_right(&rows))
 }
 
 /// The robot that is asked for, and its floor plan.
-fn of_robot(live: &Live, robot: Option<&str>) -> Result<(String, Floor)> {
+pub(super) fn of_robot(live: &Live, robot: Option<&str>) -> Result<(String, Floor)> {
     let course = live.site().course().map(|course| &**course as &dyn Any);
     let Some(map) = course.and_then(|course| course.downcast_ref::<FloorOf>()) else {
         let message = format!(
@@ -151,7 +152,7 @@ fn of_robot(live: &Live, robot: Option<&str>) -> Result<(String, Floor)> {
 }
 
 /// The rule bases of a site, one a line, the lowest first: missions keep by which rules they were done.
-fn rules_of(site: &KnowledgeBase) -> String {
+pub(super) fn rules_of(site: &KnowledgeBase) -> String {
     site.rule_bases().iter().map(Base::name).collect::<Vec<_>>().join("\n")
 }
 
@@ -229,14 +230,20 @@ fn missions(args: &SimulateArgs, floor: &Floor, known: &Floor) -> Result<Vec<Mis
     };
     let point = |text: &str| known.point(text).or_else(|_| floor.point(text));
     let (start, goal) = (point(start)?, point(goal)?);
-    if !floor.plan.is_free(start) {
-        let message = format!(
-            "no robot can begin at ({:?}, {:?}): that is outside of the plan, or in a wall",
-            start.x, start.y
-        );
-        return Err(Error::said(Code::SimulateImpossible, message, None));
-    }
-    let heading = heading(args)?;
+    may_begin(floor, start)?;
+    let heading = heading(args.heading)?;
     let mission = |seed| Mission { start: Pose { at: start, heading }, goal, obstacles: Vec::new(), seed };
     Ok((0..u64::from(args.missions)).map(|number| mission(args.seed.wrapping_add(number))).collect())
+}
+
+/// Refuses a start that is none.
+pub(super) fn may_begin(floor: &Floor, start: Point) -> Result<()> {
+    if floor.plan.is_free(start) {
+        return Ok(());
+    }
+    let message = format!(
+        "no robot can begin at ({:?}, {:?}): that is outside of the plan, or in a wall",
+        start.x, start.y
+    );
+    Err(Error::said(Code::SimulateImpossible, message, None))
 }

@@ -57,6 +57,13 @@ codes! {
     /// The database was removed or replaced while it was served; start the service again.
     DatabaseReplaced = "database/replaced", INTERNAL_SERVER_ERROR;
 
+    /// The address at which a body is to be answered cannot be listened at.
+    BodyListen = "body/listen", BAD_REQUEST;
+    /// An answer of a body is waited for longer than not at all, and no longer than an hour.
+    BodyTimeout = "body/timeout", BAD_REQUEST;
+    /// The body cannot be started, or does not answer at its address.
+    BodyUnheard = "body/unheard", BAD_REQUEST;
+
     /// The tables of a map that is not cut into rooms make no map.
     CourseTable = "course/table", BAD_REQUEST;
     /// What is asked needs a map that is cut into rooms.

@@ -5,11 +5,12 @@ use std::collections::BTreeMap;
 use adit_db::room::Room;
 use adit_planners::floor_plan::{Disc, FloorPlan, Network};
 use adit_planners::geometry::{Point, Rect, Segment, polygon};
-use adit_planners::navigation::{Building, Settings, Stretch};
+use adit_planners::navigation::{Building, Drivable, Outfit, Settings, Stretch};
 use adit_planners::routes::RoomIndex;
 use adit_planners::simulator::{Shape, Shapes};
 
 use crate::answer::{Answer, Status, pick};
+use crate::body::{Outline, Used};
 use crate::error::{Code, Error, Result};
 use crate::graph::{Building as Spaces, is_weighed};
 use crate::state::State;
@@ -139,6 +140,40 @@ impl Ground {
     /// The number of the shape of a state.
     pub fn shape(&self, state: &str) -> Option<usize> {
         self.states.iter().position(|known| known == state)
+    }
+
+    /// The shapes in which the robot fits at a point, by number; at least one.
+    pub fn fitting(&self, state: &State, at: Point) -> Result<Vec<usize>> {
+        let fitting = state.graph().states_at(&state.gauge, at, Some(&self.robot));
+        let fits = |shape: &usize| fitting.contains(&self.states[*shape].as_str());
+        let shapes: Vec<usize> = (0..self.states.len()).filter(fits).collect();
+        if shapes.is_empty() {
+            let message =
+                format!("no robot can begin at ({:?}, {:?}): it fits there in no state", at.x, at.y);
+            return Err(Error::said(Code::SimulateImpossible, message, None));
+        }
+        Ok(shapes)
+    }
+
+    /// Its shapes, as a body must have them that is driven here.
+    pub fn used(&self) -> Vec<Used> {
+        let outlines = self.outlines().into_iter();
+        outlines.map(|Outline { name, radius_m }| Used { name: Some(name), radius_m }).collect()
+    }
+
+    /// Its shapes, as a body tells them.
+    pub fn outlines(&self) -> Vec<Outline> {
+        let shapes = self.states.iter().cloned().zip(&self.shapes.all);
+        shapes.map(|(name, shape)| Outline { name, radius_m: shape.radius_m }).collect()
+    }
+
+    /// Where a simulated robot that begins in a shape drives, and how it is set.
+    pub fn stage(&self, shape: usize) -> (Drivable<'_>, Outfit) {
+        let on =
+            Drivable { walls: &self.walls, shapes: Some(&self.shapes), shape, buildings: &self.buildings };
+        let mut outfit = Outfit { navigation: self.settings, ..Outfit::default() };
+        outfit.robot.radius_m = self.shapes.all[shape].radius_m;
+        (on, outfit)
     }
 
     /// The radius of the smallest shape, metres.

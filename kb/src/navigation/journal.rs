@@ -34,14 +34,14 @@ pub fn record(
     Record {
         world: world.to_owned(),
         mission: row.mission as i64,
-        seed: row.seed.to_string(),
+        seed: row.truth.as_ref().map(|truth| truth.seed.to_string()).unwrap_or_default(),
         rules: rules.to_owned(),
         start: row.start,
         goal: row.goal,
-        obstacles: row.obstacles as i64,
+        obstacles: row.truth.as_ref().map_or(0, |truth| truth.obstacles as i64),
         ending: row.ending.to_owned(),
         length: row.length,
-        optimum: row.optimum,
+        optimum: row.truth.as_ref().and_then(|truth| truth.optimum),
         seconds: row.seconds,
         journal: entries.iter().map(entry).collect(),
     }

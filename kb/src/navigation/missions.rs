@@ -4,40 +4,33 @@ use std::collections::BTreeMap;
 use std::time::Instant;
 
 use adit_engine::Considered;
-use adit_planners::geometry::Segment;
+use adit_planners::geometry::{Point, Segment};
 use adit_planners::navigation::{
-    Building, Drivable, Ending, Entry, Judge, Mission, Outcome, Outfit, WayFacts, draw,
+    Building, Drivable, Ending, Entry, Judge, Mission, Outcome, Outfit, Trip, WayFacts, draw, trip,
 };
-use adit_planners::simulator::Film;
+use adit_planners::pose::Pose;
+use adit_planners::simulator::{Film, Simulator};
 use rayon::prelude::*;
 use serde::Serialize;
 
 use super::floor::Floor;
 use super::judge::{Considers, Judges, Noting};
+use crate::body::Remote;
 use crate::error::{Code, Error, Result};
 
 #[derive(Clone, Debug, Serialize)]
 pub struct Row {
     /// Its number, from 1.
     pub mission: usize,
-    /// From which it is drawn, and its errors.
-    pub seed: u64,
     pub start: [f64; 2],
     pub goal: [f64; 2],
-    /// How many obstacles are not known to the robot.
-    pub obstacles: usize,
     /// `arrived`, `no_way`, `lost`, `silent` or `gave_up`.
     pub ending: &'static str,
-    /// Whether a disc of the robot's radius can get there with the obstacles at rest.
-    pub possible: Option<bool>,
-    /// Whether a disc with room to spare can.
-    pub possible_with_room: Option<bool>,
-    /// Whether the ending is right: arrived where it must, no way where there is none, either in between.
-    pub right: Option<bool>,
-    /// Metres that the robot went.
+    /// Why the robot was not heard any more, where it was not.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub silence: Option<String>,
+    /// Metres that the robot went; where nobody knows where it is, by the count of its wheels.
     pub length: f64,
-    /// Of the shortest path that knows of the obstacles; where routes lead by hardness, of the best route that does.
-    pub optimum: Option<f64>,
     /// Metres in each state, of a robot that changes its shape.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub by_state: BTreeMap<String, f64>,
@@ -46,24 +39,44 @@ pub struct Row {
     /// The hardness of what the robot did, where routes lead by hardness.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub cost: Option<f64>,
-    /// Of the best route that knows of the obstacles.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub least_cost: Option<f64>,
     /// Times that a way was closed and another looked for.
     pub replans: u32,
     pub detours: u32,
     /// Touches of the skirt while the robot moved.
     pub touches: usize,
+    /// Seconds by the robot's clock.
+    pub seconds: f64,
+    /// Milliseconds that it took.
+    pub milliseconds: f64,
+    /// What judges know, of a robot that is simulated; of another one nobody does.
+    #[serde(flatten)]
+    pub truth: Option<Truth>,
+}
+
+/// What is known of a mission of a simulated robot besides what the robot knows.
+#[derive(Clone, Debug, Serialize)]
+pub struct Truth {
+    /// From which it is drawn, and its errors.
+    pub seed: u64,
+    /// How many obstacles are not known to the robot.
+    pub obstacles: usize,
+    /// Whether a disc of the robot's radius can get there with the obstacles at rest.
+    pub possible: Option<bool>,
+    /// Whether a disc with room to spare can.
+    pub possible_with_room: Option<bool>,
+    /// Whether the ending is right: arrived where it must, no way where there is none, either in between.
+    pub right: Option<bool>,
+    /// Of the shortest path that knows of the obstacles; where routes lead by hardness, of the best route that does.
+    pub optimum: Option<f64>,
+    /// The hardness of the best route that knows of the obstacles.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub least_cost: Option<f64>,
     /// Whether anything was within the robot by more than a touch.
     pub collided: bool,
     /// Metres from the goal at the end.
     pub miss: f64,
     /// The largest error of the estimated position, metres.
     pub worst_error: f64,
-    /// Seconds by the robot's clock.
-    pub seconds: f64,
-    /// Milliseconds that the simulation took.
-    pub milliseconds: f64,
 }
 
 /// What is possible for who knows of all obstacles where they come to rest.
@@ -97,40 +110,76 @@ impl Row {
         judged: Option<Judged>,
         radius: f64,
     ) -> Self {
-        Self {
-            mission: number,
+        let truth = Truth {
             seed: mission.seed,
-            start: [mission.start.at.x, mission.start.at.y],
-            goal: [mission.goal.x, mission.goal.y],
             obstacles: mission.obstacles.len(),
-            ending: ending(outcome.ending),
             possible: judged.map(|judged| judged.is_possible),
             possible_with_room: judged.map(|judged| judged.is_with_room),
             right: judged.map(|judged| judged.is_right(outcome, radius)),
-            length: outcome.path_m(),
             optimum: judged.and_then(|judged| judged.optimum_m),
-            by_state: BTreeMap::new(),
-            changes: outcome.changes.len() as u32,
-            cost: None,
             least_cost: judged.and_then(|judged| judged.least_cost),
-            replans: outcome.replans,
-            detours: outcome.detours,
-            touches: outcome.touches,
             collided: outcome.overlap_m > TOUCH_M,
             miss: outcome.miss_m,
             worst_error: outcome.worst_error_m,
+        };
+        Self {
+            mission: number,
+            start: [mission.start.at.x, mission.start.at.y],
+            goal: [mission.goal.x, mission.goal.y],
+            ending: ending(outcome.ending),
+            silence: None,
+            length: outcome.path_m(),
+            by_state: BTreeMap::new(),
+            changes: outcome.changes.len() as u32,
+            cost: None,
+            replans: outcome.replans,
+            detours: outcome.detours,
+            touches: outcome.touches,
             seconds: outcome.simulated_s,
             milliseconds: 0.0,
+            truth: Some(truth),
         }
+    }
+
+    /// How a mission went of which nobody knows more than the robot.
+    pub fn of_trip(number: usize, [start, goal]: [Point; 2], trip: &Trip) -> Self {
+        Self {
+            mission: number,
+            start: [start.x, start.y],
+            goal: [goal.x, goal.y],
+            ending: ending(trip.ending),
+            silence: None,
+            length: trip.metres.iter().sum(),
+            by_state: BTreeMap::new(),
+            changes: trip.changes.len() as u32,
+            cost: None,
+            replans: trip.replans,
+            detours: trip.detours,
+            touches: trip.touches,
+            seconds: trip.seconds,
+            milliseconds: 0.0,
+            truth: None,
+        }
+    }
+
+    /// Whether it ended as it should, where that is judged.
+    pub fn right(&self) -> Option<bool> {
+        self.truth.as_ref().and_then(|truth| truth.right)
+    }
+
+    /// Whether it is known to have collided.
+    pub fn has_collided(&self) -> bool {
+        self.truth.as_ref().is_some_and(|truth| truth.collided)
     }
 
     /// How many times as far as the shortest path the robot went, or as hard as the best route; `None` where there is none, or
     /// where the robot began at its goal.
     pub fn over_optimum(&self) -> Option<f64> {
-        if let (Some(cost), Some(least)) = (self.cost, self.least_cost) {
+        let truth = self.truth.as_ref()?;
+        if let (Some(cost), Some(least)) = (self.cost, truth.least_cost) {
             return (least > 0.0).then(|| cost / least);
         }
-        self.optimum.filter(|optimum| *optimum > 0.0).map(|optimum| self.length / optimum)
+        truth.optimum.filter(|optimum| *optimum > 0.0).map(|optimum| self.length / optimum)
     }
 }
 
@@ -256,6 +305,46 @@ fn judged(
         optimum_m: possible.optimum_m,
     });
     Ok(Row { milliseconds, ..Row::new((number, mission), &outcome, judged, radius) })
+}
+
+impl Stage<'_> {
+    /// The robot that would run a mission, where it begins.
+    pub fn body(&self, mission: &Mission) -> Result<Simulator> {
+        let on = Drivable::of(&self.walls, &self.building);
+        mission.body(&on, &self.outfit).map_err(Error::of(Code::SimulateImpossible))
+    }
+
+    /// How far the sonar of that robot hears, and whether it has a skirt.
+    pub const fn senses(&self) -> (f64, bool) {
+        (self.outfit.robot.sonar_range_m, self.outfit.robot.has_skirt)
+    }
+
+    /// Has a robot drive to a goal of which nobody knows where it really is; `hear` is told what happens when it does.
+    pub fn drive<J: Considers>(
+        &self,
+        judge: &mut J,
+        number: usize,
+        (start, goal): (Pose, Point),
+        body: &mut Remote,
+        mut hear: impl FnMut(&Entry),
+    ) -> Journal {
+        let before = Instant::now();
+        let mut outfit = self.outfit;
+        outfit.model.sonar_range_m = body.range_m().unwrap_or(outfit.model.sonar_range_m);
+        let mut noting = Noting::new(judge);
+        let mut entries = Vec::new();
+        let on = (std::slice::from_ref(&self.building), body.shape());
+        let trip = trip(body, on, (start, goal), &outfit, None, &mut noting, |entry| {
+            hear(&entry);
+            entries.push(entry);
+        });
+        let row = Row {
+            silence: body.silence().map(str::to_owned),
+            milliseconds: before.elapsed().as_secs_f64() * 1e3,
+            ..Row::of_trip(number, [start.at, goal], &trip)
+        };
+        (row, entries, noting.decided)
+    }
 }
 
 /// The word for an ending, as rows and the journal have it.

@@ -1,13 +1,13 @@
-//! Missions on a site whose rooms are cut by state: a simulated robot drives the site's own routes, changes its shape where
-//! they say so, and asks for another route where its way is closed.
+//! Missions on a site whose rooms are cut by state: a robot, simulated or not, drives the site's own routes, changes its shape
+//! where they say so, and asks for another route where its way is closed.
 
 use std::mem;
 use std::time::Instant;
 
 use adit_db::history::Author;
-use adit_engine::RuleBase;
+use adit_engine::{Considered, RuleBase};
 use adit_planners::geometry::{Point, Rect, Segment, polygon};
-use adit_planners::navigation::{Drivable, Entry, Met, Mission, Outfit, ROOM_M, Router, Stretch, draw_along};
+use adit_planners::navigation::{Entry, Met, Mission, ROOM_M, Router, Stretch, draw_along, trip};
 use adit_planners::pose::Pose;
 use adit_planners::simulator::Film;
 
@@ -15,6 +15,7 @@ use super::ground::Ground;
 use super::judge::{Noting, RuleJudge};
 use super::missions::{Journal, Judged, Row, refuse};
 use crate::answer::Answer;
+use crate::body::Remote;
 use crate::edit::{Edit, Errand, Lay, Thing};
 use crate::error::{Code, Error, Result};
 use crate::live::Live;
@@ -256,6 +257,12 @@ fn named(met: &Met) -> String {
     format!("{:.3},{:.3}@{:.0}", met.at.x, met.at.y, met.heading.to_degrees())
 }
 
+/// What a robot did: metres in each shape, where it was in which, changes of shape.
+type Done<'o> = (&'o [f64], &'o [(Point, usize)], &'o [(usize, usize)]);
+
+/// All that happened, and for each decision the rule that spoke.
+type Happened = (Vec<Entry>, Vec<Option<Considered>>);
+
 /// Missions on a site.
 pub struct Missions<'l> {
     pub live: &'l mut Live,
@@ -326,14 +333,55 @@ impl Missions<'_> {
         let first = asked(self.live, &[], (mission.start.at, &goal), &Errand::default(), &ground.robot)?;
         let shape = self.first_shape(&first, mission.start.at)?;
         let judged = self.judged(mission, &goal, shape)?;
-        let shapes = Some(&ground.shapes);
-        let on = Drivable { walls: &ground.walls, shapes, shape, buildings: &ground.buildings };
-        let mut outfit = Outfit { navigation: ground.settings, ..Outfit::default() };
-        outfit.robot.radius_m = ground.shapes.all[shape].radius_m;
+        let (on, outfit) = ground.stage(shape);
+        let (outcome, journal, said) = self.along(number, |site, judge, entries| {
+            mission
+                .run(&on, &outfit, Some(site), judge, |entry| entries.push(entry), film)
+                .map_err(Error::of(Code::SimulateImpossible))
+        })?;
+        let radius = ground.shapes.all[outcome.shape].radius_m;
+        let row = Row::new((number, mission), &outcome, Some(judged), radius);
+        let row = self.weighed(row, (&outcome.metres, &outcome.track, &outcome.changes), before);
+        Ok(((row, journal.0, journal.1), said))
+    }
+
+    /// Has a robot drive to a goal of which nobody knows where it really is.
+    ///
+    /// # Returns
+    /// As [`Self::run`].
+    pub fn drive(
+        &mut self,
+        number: usize,
+        (start, goal): (Pose, Point),
+        body: &mut Remote,
+    ) -> Result<(Journal, Vec<String>)> {
+        let before = Instant::now();
+        let (ground, shape) = (self.ground, body.shape());
+        let (_, mut outfit) = ground.stage(shape);
+        outfit.model.sonar_range_m = body.range_m().unwrap_or(outfit.model.sonar_range_m);
+        let (trip, journal, said) = self.along(number, |site, judge, entries| {
+            let on = (&ground.buildings[..], shape);
+            Ok(trip(body, on, (start, goal), &outfit, Some(site), judge, |entry| entries.push(entry)))
+        })?;
+        let row = Row::of_trip(number, [start.at, goal], &trip);
+        let row = Row { silence: body.silence().map(str::to_owned), ..row };
+        let row = self.weighed(row, (&trip.metres, &trip.track, &trip.changes), before);
+        Ok(((row, journal.0, journal.1), said))
+    }
+
+    /// Has something driven by the site's routes and rules.
+    ///
+    /// # Returns
+    /// Beside what came of it the journal, and what the site was told, and what followed, in sentences.
+    fn along<O>(
+        &mut self,
+        number: usize,
+        go: impl FnOnce(&mut Site<'_>, &mut Noting<'_, RuleJudge>, &mut Vec<Entry>) -> Result<O>,
+    ) -> Result<(O, Happened, Vec<String>)> {
         let begun = stored(self.live.site().moment("0s")?);
         let mut site = Site {
             live: self.live,
-            ground,
+            ground: self.ground,
             mission: number,
             begun,
             tells: self.tells,
@@ -344,40 +392,34 @@ impl Missions<'_> {
         };
         let mut judge = RuleJudge::of_rules(self.rules)?;
         let mut noting = Noting::new(&mut judge);
-        let mut entries: Vec<Entry> = Vec::new();
-        let outcome = mission
-            .run(&on, &outfit, Some(&mut site), &mut noting, |entry| entries.push(entry), film)
-            .map_err(Error::of(Code::SimulateImpossible))?;
+        let mut entries = Vec::new();
+        let outcome = go(&mut site, &mut noting, &mut entries)?;
         let (said, trouble, decided) = (site.said, site.trouble, noting.decided);
         if let Some(trouble) = trouble {
             return Err(trouble);
         }
         refuse(judge.trouble())?;
+        Ok((outcome, (entries, decided), said))
+    }
+
+    /// A row with what the robot did in each state, and how hard that was.
+    fn weighed(&self, row: Row, (metres, track, changes): Done<'_>, before: Instant) -> Row {
         let milliseconds = before.elapsed().as_secs_f64() * 1e3;
-        let radius = ground.shapes.all[outcome.shape].radius_m;
-        let states = ground.states.iter().cloned().zip(outcome.metres.iter().copied());
-        let row = Row {
+        let states = self.ground.states.iter().cloned().zip(metres.iter().copied());
+        Row {
             by_state: states.filter(|(_, metres)| *metres > 0.0).collect(),
-            cost: Some(ground.hardness(&self.live.fork(), &outcome.track, &outcome.changes)),
+            cost: Some(self.ground.hardness(&self.live.fork(), track, changes)),
             milliseconds,
-            ..Row::new((number, mission), &outcome, Some(judged), radius)
-        };
-        Ok(((row, entries, decided), said))
+            ..row
+        }
     }
 
     /// In which shape the robot begins: as its route does; without one, in the first that fits there.
     fn first_shape(&self, first: &Answer, at: Point) -> Result<usize> {
         let by_route =
             first.waypoints.first().and_then(|waypoint| self.ground.shape(waypoint.state.as_deref()?));
-        let state = self.live.fork();
-        let fitting = state.graph().states_at(&state.gauge, at, Some(&self.ground.robot));
-        let fits = |shape: usize| fitting.contains(&self.ground.states[shape].as_str());
-        let shape = by_route.filter(|shape| fits(*shape));
-        shape.or_else(|| (0..self.ground.states.len()).find(|shape| fits(*shape))).ok_or_else(|| {
-            let message =
-                format!("no robot can begin at ({:?}, {:?}): it fits there in no state", at.x, at.y);
-            Error::said(Code::SimulateImpossible, message, None)
-        })
+        let fitting = self.ground.fitting(&self.live.fork(), at)?;
+        Ok(by_route.filter(|shape| fitting.contains(shape)).unwrap_or(fitting[0]))
     }
 
     /// What is possible for who knows of all obstacles.

@@ -71,6 +71,7 @@ fn sentence(event: &str, detail: &Value) -> Option<String> {
         "sought" => {
             Some(format!("unsure where it was, it set out to {}, where walls tell", place(&detail["at"])?))
         }
+        "silent" => Some(format!("it was not heard any more: {}", detail["why"].as_str()?)),
         "begun anew" => Some("it forgot what it had met, and looked again".to_owned()),
         _ => None,
     }

@@ -49,8 +49,8 @@ pub struct Answer {
     pub considered: Vec<Spoke>,
 }
 
-/// A decision, and what happened until then.
-type Found = (Decision, Vec<Happened>);
+/// A decision, if there was one, and what happened until then.
+type Found = (Option<Decision>, Vec<Happened>);
 
 /// A time that people write may be less than the one of the journal by so much.
 const ROUNDED_S: f64 = 0.005;
@@ -75,7 +75,7 @@ pub fn why(
         return Err(Error::said(Code::WhyTime, format!("--at {at} is no time; expected seconds"), None));
     }
     let mut store = Store::open_read_only(database)?;
-    let (world, found) = store.snapshot(|tx| -> Result<(String, Option<Found>)> {
+    let (world, found) = store.snapshot(|tx| -> Result<(String, Found)> {
         let world = one_world(&tx.worlds_of_missions()?, world, database)?;
         let (count, first, last) = tx.numbers_of_missions(&world)?;
         if !(first..=last).contains(&number) {
@@ -85,17 +85,20 @@ pub fn why(
         }
         // Times are read from tables, where they are rounded.
         let until = at.map_or(f64::INFINITY, |at| at + ROUNDED_S);
-        let Some(decision) = tx.decision(&world, number, until)? else { return Ok((world, None)) };
+        let decision = tx.decision(&world, number, until)?;
         let happened = tx.events_of_mission(&world, number, until)?;
-        Ok((world, Some((decision, happened))))
+        Ok((world, (decision, happened)))
     })?;
-    let Some((decision, happened)) = found else {
+    let (decision, happened) = found;
+    let story = story::told(&happened);
+    let Some(decision) = decision else {
         let when = at.map_or_else(String::new, |at| format!(" yet at {} s", self::number(at)));
-        let message = format!("mission {number} of {world} had decided nothing{when}");
+        let because = story.last().map_or_else(String::new, |last| format!(": {}", last.text));
+        let message = format!("mission {number} of {world} had decided nothing{when}{because}");
         return Err(Error::said(Code::WhyNoStop, message, None));
     };
     let mut answer = explained((world, number), decision, rules)?;
-    answer.story = story::told(&happened);
+    answer.story = story;
     Ok(answer)
 }
 

@@ -2,6 +2,7 @@
 
 use super::judge::{Action, Judge, StateDecision};
 use super::known::Building;
+use super::log::Log;
 use super::router::Router;
 use super::run::run;
 use super::{Ending, Event, Happening, Navigator, Settings};
@@ -111,9 +112,6 @@ pub struct Outcome {
     pub track: Vec<(Point, usize)>,
 }
 
-/// The track has a point each so many metres.
-const TRACK_M: f64 = 0.25;
-
 /// What can be, with the obstacles where they come to rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Possible {
@@ -129,6 +127,15 @@ pub struct Possible {
 pub const ROOM_M: f64 = 0.10;
 
 impl Mission {
+    /// The robot that would run the mission, where it begins.
+    pub fn body(&self, on: &Drivable<'_>, outfit: &Outfit) -> Result<Simulator, SimulationError> {
+        let body = Simulator::new(on.walls, self.obstacles.clone(), outfit.robot, self.start, self.seed)?;
+        match on.shapes {
+            Some(shapes) => body.in_shape(shapes.clone(), on.shape),
+            None => Ok(body),
+        }
+    }
+
     /// Runs the mission.
     ///
     /// # Arguments
@@ -143,21 +150,20 @@ impl Mission {
         mut journal: impl FnMut(Entry),
         mut film: Option<&mut Option<Film>>,
     ) -> Result<Outcome, SimulationError> {
-        let mut body = Simulator::new(on.walls, self.obstacles.clone(), outfit.robot, self.start, self.seed)?;
-        if let Some(shapes) = on.shapes {
-            body = body.in_shape(shapes.clone(), on.shape)?;
-        }
+        let mut body = self.body(on, outfit)?;
         let start = outfit.estimate(self.start);
         let mut navigator =
             Navigator::of_shapes((on.buildings, on.shape), outfit.model, outfit.navigation, start);
         if let Some(film) = &mut film {
             **film = Some(Film::new(&body).to(self.goal));
         }
-        let mut outcome = Outcome::begun(self.start, on);
-        let mut before = (body.pose(), body.shape());
+        let mut outcome = Outcome::begun(on);
+        let mut log = Log::begun(self.start.at, on.shape, on.buildings.len());
+        let mut before = body.pose();
         let ending = run(&mut body, &mut navigator, self.goal, router, judge, |body, navigator, events| {
-            outcome.note(body, before, navigator);
-            before = (body.pose(), body.shape());
+            log.note(before.at.distance(body.pose().at), body.pose().at, body.shape());
+            outcome.note(body, navigator);
+            before = body.pose();
             for event in events {
                 outcome.detours += u32::from(matches!(event.what, Happening::Detour { .. }));
                 if let Some(Some(film)) = film.as_deref_mut() {
@@ -166,9 +172,13 @@ impl Mission {
                 journal(Entry { event, truth: Some(body.pose()) });
             }
         });
+        let Log { metres, changes, track, .. } = log;
         Ok(Outcome {
             ending,
             shape: body.shape(),
+            metres,
+            changes,
+            track,
             replans: navigator.replans(),
             simulated_s: body.time_s(),
             touches: body.touches_by_robot(),
@@ -198,11 +208,11 @@ impl Mission {
 
 impl Outcome {
     /// Of a mission of which nothing was driven yet.
-    fn begun(start: Pose, on: &Drivable<'_>) -> Self {
+    fn begun(on: &Drivable<'_>) -> Self {
         Self {
             ending: Ending::OutOfPatience,
             shape: on.shape,
-            metres: vec![0.0; on.buildings.len()],
+            metres: Vec::new(),
             changes: Vec::new(),
             replans: 0,
             detours: 0,
@@ -212,7 +222,7 @@ impl Outcome {
             miss_m: 0.0,
             worst_error_m: 0.0,
             worst_heading_error: 0.0,
-            track: vec![(start.at, on.shape)],
+            track: Vec::new(),
         }
     }
 
@@ -221,17 +231,9 @@ impl Outcome {
         self.metres.iter().sum()
     }
 
-    /// Takes note of a step from a pose, in a shape.
-    fn note(&mut self, body: &Simulator, (before, shape): (Pose, usize), navigator: &Navigator<'_>) {
-        let (now, truth, thought) = (body.shape(), body.pose(), navigator.estimate().pose);
-        self.metres[shape] += before.at.distance(truth.at);
-        if now != shape {
-            self.changes.push((shape, now));
-        }
-        let is_far = self.track.last().is_none_or(|(last, _)| last.distance(truth.at) >= TRACK_M);
-        if is_far || now != shape {
-            self.track.push((truth.at, now));
-        }
+    /// Takes note of a step.
+    fn note(&mut self, body: &Simulator, navigator: &Navigator<'_>) {
+        let (truth, thought) = (body.pose(), navigator.estimate().pose);
         self.worst_error_m = self.worst_error_m.max(thought.at.distance(truth.at));
         let turned = wrapped(thought.heading - truth.heading).abs();
         self.worst_heading_error = self.worst_heading_error.max(turned);

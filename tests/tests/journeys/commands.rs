@@ -33,7 +33,7 @@ const fn page(file: &'static str) -> Page {
     Page { file, blocks: &[], databases: &[] }
 }
 
-const PAGES: [Page; 24] = [
+const PAGES: [Page; 25] = [
     Page {
         file: "README.md",
         blocks: &[
@@ -115,6 +115,11 @@ const PAGES: [Page; 24] = [
         file: "manual/src/sql.md",
         blocks: &[],
         databases: &[("action_sequence", "my-site/site.db"), ("FROM route", "my-site/site.db")],
+    },
+    Page {
+        file: "manual/src/bodies.md",
+        blocks: &[("\"type\":\"hello\"", Use::Shown), ("kb/bodies/disc.py}}", Use::Shown)],
+        databases: &[],
     },
     Page {
         file: "manual/src/geodata.md",
@@ -251,6 +256,7 @@ each_page! {
     telling: "manual/src/telling.md";
     asking_why: "manual/src/asking-why.md";
     sql: "manual/src/sql.md";
+    a_robot_of_your_own: "manual/src/bodies.md";
     geodata: "manual/src/geodata.md";
     ways: "manual/src/ways.md";
     other_maps: "manual/src/other-maps.md";

@@ -4,6 +4,7 @@
 mod adapt;
 mod ask;
 mod bad_input;
+mod bodies;
 mod budgets;
 mod built_once;
 mod by_state;
