@@ -18,7 +18,6 @@
 
 pub mod adapt;
 pub mod answer;
-pub mod body;
 pub mod cli;
 pub mod draw;
 pub mod edit;

@@ -1,6 +1,7 @@
 //! Navigation on floor plans (Crowley): paths over regions and adits, and missions of a simulated robot that meets what
 //! its plan does not know. Rules decide; `adit_planners::navigation` drives.
 
+pub mod body;
 pub mod course;
 pub mod drive;
 pub mod floor;

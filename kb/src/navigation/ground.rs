@@ -10,9 +10,9 @@ use adit_planners::routes::RoomIndex;
 use adit_planners::simulator::{Shape, Shapes};
 
 use crate::answer::{Answer, Status, pick};
-use crate::body::{Outline, Used};
 use crate::error::{Code, Error, Result};
 use crate::graph::{Building as Spaces, is_weighed};
+use crate::navigation::body::{Outline, Used};
 use crate::state::State;
 
 /// How fast a robot is whose table does not say it, metres a second.

@@ -15,8 +15,8 @@ use serde::Serialize;
 
 use super::floor::Floor;
 use super::judge::{Considers, Judges, Noting};
-use crate::body::Remote;
 use crate::error::{Code, Error, Result};
+use crate::navigation::body::Remote;
 
 #[derive(Clone, Debug, Serialize)]
 pub struct Row {

@@ -15,10 +15,10 @@ use super::ground::Ground;
 use super::judge::{Noting, RuleJudge};
 use super::missions::{Journal, Judged, Row, refuse};
 use crate::answer::Answer;
-use crate::body::Remote;
 use crate::edit::{Edit, Errand, Lay, Thing};
 use crate::error::{Code, Error, Result};
 use crate::live::Live;
+use crate::navigation::body::Remote;
 use crate::site::clock::stored;
 
 /// A robot that is a little off is taken to be where it fits, up to so far, metres.

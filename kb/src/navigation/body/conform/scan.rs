@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use adit_planners::geometry::Point;
 
-use crate::body::message::Senses;
+use crate::navigation::body::message::Senses;
 
 /// Ranges that differ by more say no more than that they differ, metres.
 const DIFFERENT_M: f64 = 0.5;
@@ -80,7 +80,7 @@ fn sector(bearing: f64, directions: usize) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::body::message::{Echo, Place};
+    use crate::navigation::body::message::{Echo, Place};
 
     const AT: Place = Place { x_m: 0.0, y_m: 0.0, heading_rad: 0.0 };
 

@@ -3,7 +3,7 @@
 use super::exam::{Exam, Over, PATIENCE_S};
 use super::moving::{SLOW_M_S, STEP_M, go, went};
 use super::scan::Scan;
-use crate::body::message::Order;
+use crate::navigation::body::message::Order;
 
 /// About so far it turns, radians.
 const TURN: f64 = 0.5;

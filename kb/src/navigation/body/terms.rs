@@ -144,3 +144,79 @@ fn is_angle(angle: f64) -> bool {
 pub fn names(profile: &Profile) -> String {
     profile.shapes.iter().map(|outline| outline.name.as_str()).collect::<Vec<_>>().join(", ")
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::navigation::body::message::{Echo, Outline, Touch};
+
+    type Change<T> = fn(&mut T);
+
+    fn profile() -> Profile {
+        let outline = |name: &str, radius_m| Outline { name: name.to_owned(), radius_m };
+        Profile {
+            protocol: PROTOCOL,
+            shapes: vec![outline("tall", 0.3), outline("low", 0.4)],
+            shape: "tall".to_owned(),
+            directions: 4,
+            range_m: 8.0,
+            has_skirt: false,
+        }
+    }
+
+    fn senses() -> Senses {
+        let odometry = Place { x_m: 1.0, y_m: 2.0, heading_rad: -3.0 };
+        let readings = vec![Echo { bearing_rad: 6.2, range_m: Some(8.0), odometry }; 4];
+        Senses { time_s: 1.0, odometry, readings, contact: None, is_busy: true, shape: "low".to_owned() }
+    }
+
+    #[test]
+    fn what_a_body_says_of_itself_has_to_make_sense() {
+        assert!(Terms::of(profile()).is_ok());
+        let changes: [(Change<Profile>, &str); 8] = [
+            (|it| it.protocol = 2, "speaks protocol 2, expected 1"),
+            (|it| it.shapes.clear(), "no shape"),
+            (|it| it.shapes[1].name = "tall".to_owned(), "`tall` twice"),
+            (|it| it.shapes[0].radius_m = 0.0, "is 0 m, expected more than 0"),
+            (|it| it.directions = 0, "into 0 directions"),
+            (|it| it.directions = 5000, "into 5000 directions"),
+            (|it| it.range_m = -1.0, "as far as -1 m"),
+            (|it| it.shape = "flat".to_owned(), "in the shape `flat`, expected one of its own: tall, low"),
+        ];
+        for (change, words) in changes {
+            let mut profile = profile();
+            change(&mut profile);
+            let said = Terms::of(profile).expect_err(words);
+            assert!(said.contains(words), "{said}");
+        }
+    }
+
+    #[test]
+    fn what_cannot_be_is_said_with_what_was_found_and_what_was_expected() {
+        let terms = Terms::of(profile()).expect("it makes sense");
+        assert_eq!(terms.wrong(&senses(), Some(0.5)), []);
+        let changes: [(Change<Senses>, About, &str); 11] = [
+            (|it| it.time_s = 0.5, About::Time, "`time_s` is 0.5, expected more than 0.5"),
+            (|it| it.time_s = 1e10, About::Time, "expected 0 to"),
+            (|it| it.readings[1].bearing_rad = 90.0, About::Angle, "`bearing_rad` is 90, expected radians"),
+            (|it| it.odometry.heading_rad = -7.0, About::Angle, "`heading_rad` is -7"),
+            (|it| it.readings[3].odometry.heading_rad = 7.0, About::Angle, "`heading_rad` is 7"),
+            (
+                |it| it.readings[0].range_m = Some(8.1),
+                About::Range,
+                "`range_m` is 8.1, expected null, or 0 to 8",
+            ),
+            (|it| it.readings[0].range_m = Some(-0.1), About::Range, "`range_m` is -0.1"),
+            (|it| it.odometry.x_m = -1e300, About::Place, "expected within "),
+            (|it| it.readings.push(it.readings[0]), About::Number, "5 readings, expected at most 4"),
+            (|it| it.contact = Some(Touch { bearing_rad: 0.0 }), About::Contact, "it has no skirt"),
+            (|it| it.shape = "flat".to_owned(), About::Shape, "`flat`, expected one of tall, low"),
+        ];
+        for (change, about, words) in changes {
+            let mut senses = senses();
+            change(&mut senses);
+            let found = terms.wrong(&senses, Some(0.5));
+            assert!(found.len() == 1 && found[0].about == about && found[0].why.contains(words), "{found:?}");
+        }
+    }
+}

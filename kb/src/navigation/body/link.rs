@@ -266,3 +266,22 @@ pub fn order_line(input: &mut impl BufRead) -> Result<Option<String>, String> {
         Some(Heard::Broken(why)) => Err(why),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn lines(mut bytes: &[u8]) -> Vec<Result<String, String>> {
+        std::iter::from_fn(|| order_line(&mut bytes).transpose()).take(3).collect()
+    }
+
+    #[test]
+    fn what_is_no_line_is_said() {
+        assert_eq!(lines(b"one\ntwo\n"), [Ok("one".to_owned()), Ok("two".to_owned())]);
+        let said = |bytes: &[u8]| lines(bytes)[0].clone().expect_err("no line");
+        assert_eq!(said(b"hal"), "it ended within a line: `hal`");
+        assert!(said(b"\xff\n").starts_with("a line is no UTF-8"));
+        assert!(said(&vec![b'x'; LINE_BYTES + 5]).starts_with("a line is longer than 1048576 bytes: `xxx"));
+        assert!(lines(&[vec![b'x'; LINE_BYTES], b"\n".to_vec()].concat())[0].is_ok());
+    }
+}

@@ -5,9 +5,9 @@ use std::time::{Duration, Instant};
 
 use adit_planners::pose::{Pose, wrapped};
 
-use crate::body::link::{Ends, Link};
-use crate::body::message::{Answer, Order, Profile, Senses};
-use crate::body::terms::{About, Terms};
+use crate::navigation::body::link::{Ends, Link};
+use crate::navigation::body::message::{Answer, Order, Profile, Senses};
+use crate::navigation::body::terms::{About, Terms};
 
 /// The link is over: nothing more can be asked.
 #[derive(Debug)]

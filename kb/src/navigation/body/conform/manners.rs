@@ -1,9 +1,9 @@
 //! What is said at first, at last, and to what nobody understands.
 
 use super::exam::{Exam, Over};
-use crate::body::limits::PROTOCOL;
-use crate::body::message::{Answer, Order};
-use crate::body::terms::{Terms, names};
+use crate::navigation::body::limits::PROTOCOL;
+use crate::navigation::body::message::{Answer, Order};
+use crate::navigation::body::terms::{Terms, names};
 
 /// A version that nobody speaks.
 const NO_VERSION: u32 = 1_000_000;

@@ -3,7 +3,7 @@
 use adit_planners::pose::{Pose, wrapped};
 
 use super::exam::{Done, Exam, Over, PATIENCE_S};
-use crate::body::message::{Order, Senses};
+use crate::navigation::body::message::{Order, Senses};
 
 /// By how much a turn may miss, radians; a move, metres.
 const TURN: f64 = 0.1;
