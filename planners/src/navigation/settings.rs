@@ -28,7 +28,7 @@ settings! {
             detour_reach_m: f64 = 2.0, "detour_reach", "m", Positive, "A detour leaves the rectangle about its ends by at most so much.";
             grain_m: f64 = 0.04, "grain", "m", Grain, "The grain of the search for detours.";
             back_off_m: f64 = 0.15, "back_off", "m", Positive, "How far the robot withdraws from what it touched.";
-            change_room_m: f64 = 0.15, "change_room", "m", Room, "What is kept free on either side of the robot where it changes its shape, if there is such a place.";
+            change_room_m: f64 = 0.25, "change_room", "m", Room, "What is kept free on either side of the robot where it changes its shape, if there is such a place.";
             change_reach_m: f64 = 1.5, "change_reach", "m", NotNegative, "So far before or behind the place that a route says the robot changes its shape, to have room.";
             felt_s: f64 = 90.0, "felt", "s", NotNegative, "What was touched is in the way for so long.";
             least_confidence: u8 = 2, "least_confidence", "", Count, "Surfaces of less confidence close no way for good.";

@@ -196,9 +196,9 @@ mod tests {
     #[test]
     fn the_robot_goes_down_before_a_pipe_and_gets_up_behind_it_with_room_and_beside_a_wall_farther_from_that()
     {
-        for (y, off_wall) in [(1.5, 1.1), (0.4, 0.15)] {
+        let room = Settings::default().change_room_m;
+        for (y, off_wall) in [(1.5, 1.1), (0.4, room)] {
             let way = beneath_a_pipe(y);
-            let room = Settings::default().change_room_m;
             for change in [way[1].points[0], way[1].points[way[1].points.len() - 1]] {
                 let off_pipe = (4.0 - change.x).max(change.x - 5.0) - 0.3;
                 assert!((room - 1e-9..room + 0.2).contains(&off_pipe), "{change:?}");

@@ -83,8 +83,8 @@ fn rules_that_were_changed_since_are_said_to_say_something_else() {
     run(&folder, "simulate", &["bed", "desk", "--db", "missions.db"]).expect_status(0);
     folder.edit(
         "rules/execution.rhai",
-        "any,  any,  true, any,  any,  any,   any,   \"hold\",    \"none\" ],",
-        "any,  any,  true, any,  any,  any,   any,   \"wait\",    \"none\" ],",
+        "any,  any,  true, any,  any,  any,  any,   any,   \"hold\",    \"none\" ],",
+        "any,  any,  true, any,  any,  any,  any,   any,   \"wait\",    \"none\" ],",
     );
     let answer = on(&folder, "why", "missions.db", &["1"]).expect_status(0).stdout;
     assert!(answer.contains("the rules have changed since: now they say wait"), "{answer}");
