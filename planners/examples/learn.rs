@@ -115,11 +115,11 @@ fn missions(plan: &FloorPlan, learned: &Learned, start: Point) {
                 .run(&Drivable::of(&given.walls, building), &outfit, None, &mut table::Table, |_| {}, None)
                 .unwrap_or_else(|error| panic!("mission {number}: {error}"))
         });
-        let has_arrived = outcomes.each_ref().map(|outcome| outcome.ending == Ending::Arrived);
+        let has_arrived = outcomes.each_ref().map(|outcome| outcome.trip.ending == Ending::Arrived);
         for side in 0..2 {
             arrived[side] += usize::from(has_arrived[side]);
             if has_arrived == [true, true] {
-                lengths[side].push(outcomes[side].path_m());
+                lengths[side].push(outcomes[side].trip.path_m());
             }
         }
         collisions += usize::from(outcomes[1].overlap_m > 1e-6);

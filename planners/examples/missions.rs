@@ -128,8 +128,8 @@ fn table_of(path: &str, numbers: Range<u64>) {
     let cases: Vec<Case> = numbers.into_par_iter().filter_map(run).collect();
     println!("{}: {} missions in {:.1} s", plan.name, cases.len(), begin.elapsed().as_secs_f64());
     let number = |is: &dyn Fn(&Case) -> bool| cases.iter().filter(|case| is(case)).count();
-    let arrived = |case: &Case| case.outcome.ending == Ending::Arrived;
-    let no_way = |case: &Case| case.outcome.ending == Ending::NoWay;
+    let arrived = |case: &Case| case.outcome.trip.ending == Ending::Arrived;
+    let no_way = |case: &Case| case.outcome.trip.ending == Ending::NoWay;
     println!(
         "  possible {} (arrived {}), impossible {} (no way {}), between {} (arrived {}), touches {}, overlap {:.1e} m",
         number(&|case| case.possible.is_with_room),
@@ -138,10 +138,10 @@ fn table_of(path: &str, numbers: Range<u64>) {
         number(&|case| !case.possible.is_for_radius && no_way(case)),
         number(&|case| case.possible.is_for_radius && !case.possible.is_with_room),
         number(&|case| case.possible.is_for_radius && !case.possible.is_with_room && arrived(case)),
-        cases.iter().map(|case| case.outcome.touches).sum::<usize>(),
+        cases.iter().map(|case| case.outcome.trip.touches).sum::<usize>(),
         cases.iter().map(|case| case.outcome.overlap_m).fold(f64::NEG_INFINITY, f64::max),
     );
-    let wrong = |case: &Case| match case.outcome.ending {
+    let wrong = |case: &Case| match case.outcome.trip.ending {
         Ending::Arrived => !case.possible.is_for_radius || case.outcome.miss_m > outfit.robot.radius_m,
         Ending::NoWay => case.possible.is_with_room,
         _ => false,
@@ -150,12 +150,12 @@ fn table_of(path: &str, numbers: Range<u64>) {
         "  arrived {}, no way {}, lost {}, out of patience {}; wrong claims {}",
         number(&arrived),
         number(&no_way),
-        number(&|case| case.outcome.ending == Ending::Lost),
-        number(&|case| case.outcome.ending == Ending::OutOfPatience),
+        number(&|case| case.outcome.trip.ending == Ending::Lost),
+        number(&|case| case.outcome.trip.ending == Ending::OutOfPatience),
         number(&wrong),
     );
     let mut touched: Vec<(usize, u64, bool)> =
-        cases.iter().map(|case| (case.outcome.touches, case.number, case.has_movers)).collect();
+        cases.iter().map(|case| (case.outcome.trip.touches, case.number, case.has_movers)).collect();
     touched.retain(|(touches, ..)| *touches > 0);
     touched.sort_by(|a, b| b.cmp(a));
     println!(
@@ -163,21 +163,22 @@ fn table_of(path: &str, numbers: Range<u64>) {
         touched.len(),
         &touched[..touched.len().min(8)]
     );
-    let ratio = |case: &Case| case.possible.optimum_m.map(|optimum| case.outcome.path_m() / optimum);
+    let ratio = |case: &Case| case.possible.optimum_m.map(|optimum| case.outcome.trip.path_m() / optimum);
     let reached = || cases.iter().filter(|case| arrived(case));
     spread("path over optimum", reached().filter_map(ratio).collect());
-    spread("replans", cases.iter().map(|case| f64::from(case.outcome.replans)).collect());
-    spread("detours", cases.iter().map(|case| f64::from(case.outcome.detours)).collect());
-    spread("simulated s", cases.iter().map(|case| case.outcome.simulated_s).collect());
+    spread("replans", cases.iter().map(|case| f64::from(case.outcome.trip.replans)).collect());
+    spread("detours", cases.iter().map(|case| f64::from(case.outcome.trip.detours)).collect());
+    spread("simulated s", cases.iter().map(|case| case.outcome.trip.seconds).collect());
     spread("wall s", cases.iter().map(|case| case.wall_s).collect());
     spread("worst error m", cases.iter().map(|case| case.outcome.worst_error_m).collect());
     spread("miss at the goal m", reached().map(|case| case.outcome.miss_m).collect());
     for case in &cases {
-        let is_right = match (case.outcome.ending, case.possible.is_for_radius, case.possible.is_with_room) {
-            (Ending::Arrived, is_for_radius, _) => is_for_radius && case.outcome.miss_m < 0.2,
-            (Ending::NoWay, _, is_with_room) => !is_with_room,
-            _ => false,
-        };
+        let is_right =
+            match (case.outcome.trip.ending, case.possible.is_for_radius, case.possible.is_with_room) {
+                (Ending::Arrived, is_for_radius, _) => is_for_radius && case.outcome.miss_m < 0.2,
+                (Ending::NoWay, _, is_with_room) => !is_with_room,
+                _ => false,
+            };
         if !is_right {
             println!(
                 "  {} {}{:?} {:?}",

@@ -5,7 +5,7 @@ use std::io::{self, BufRead, BufReader, Write, stdin, stdout};
 use std::net::TcpListener;
 use std::path::PathBuf;
 
-use adit_planners::navigation::{Log, Mission};
+use adit_planners::navigation::{Mission, Trip};
 use adit_planners::pose::Pose;
 use adit_planners::simulator::Simulator;
 use clap::Args;
@@ -138,11 +138,11 @@ impl Robot<'_> {
         let body = (self.made)()?;
         let mut before = body.pose().at;
         let mut host = Host::new(body, (self.shapes.clone(), self.shape), self.senses);
-        let mut log = Log::begun(before, self.shape, self.shapes.len());
+        let mut trip = Trip::begun(before, self.shape, self.shapes.len());
         let mut deepest_m = f64::NEG_INFINITY;
         let served = host.serve(&mut input, &mut output, |body| {
             let at = body.pose().at;
-            log.note(before.distance(at), at, body.shape());
+            trip.note(before.distance(at), (at, body.shape()), &[]);
             before = at;
             deepest_m = deepest_m.max(body.overlap_m());
         });
@@ -150,23 +150,23 @@ impl Robot<'_> {
             // who drives it hung up
             remark(&format!("the link is over: {error}"));
         }
-        self.tell(&host.body, &log, deepest_m)
+        self.tell(&host.body, &trip, deepest_m)
     }
 
     /// Writes the truth down, where that is wanted.
-    fn tell(&self, body: &Simulator, log: &Log, deepest_m: f64) -> Result<()> {
+    fn tell(&self, body: &Simulator, trip: &Trip, deepest_m: f64) -> Result<()> {
         let Some(file) = &self.args.truth else { return Ok(()) };
         let pose = body.pose();
         let metres: serde_json::Map<_, _> = self
             .shapes
             .iter()
-            .zip(&log.metres)
+            .zip(&trip.metres)
             .filter(|(_, metres)| **metres > 0.0)
             .map(|(state, metres)| (state.name.clone(), json!(metres)))
             .collect();
         let truth = json!({
             "x": pose.at.x, "y": pose.at.y, "heading": pose.heading.to_degrees(),
-            "state": self.shapes[body.shape()].name, "length": log.metres.iter().sum::<f64>(),
+            "state": self.shapes[body.shape()].name, "length": trip.path_m(),
             "by_state": metres, "touches": body.touches().iter().filter(|touch| touch.by_robot).count(),
             "overlap": deepest_m.is_finite().then_some(deepest_m), "seconds": body.time_s(),
         });

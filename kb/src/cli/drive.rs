@@ -16,7 +16,7 @@ use crate::error::Result;
 use crate::live::Live;
 use crate::navigation::body::{Link, Remote, Used};
 use crate::navigation::judge::{Judges, RuleJudge};
-use crate::navigation::missions::{Row, Stage, refuse};
+use crate::navigation::missions::{Row, Stage, ended, refuse};
 use crate::navigation::reporting::{Reporting, Reports};
 use crate::words::number::{counted, number};
 
@@ -151,14 +151,12 @@ impl Driver<'_> {
 const WORDS: &str = "mission";
 
 fn show(row: &Row, site: &str) {
-    let ended = match (row.ending, &row.silence) {
-        ("arrived", _) => "it arrived, by its own account".to_owned(),
-        ("no_way", _) => "it found no way".to_owned(),
-        ("lost", _) => "it does not know where it is".to_owned(),
-        ("silent", Some(why)) => format!("it is not heard any more: {why}"),
-        _ => "it gave up".to_owned(),
+    let more = match (row.ending, &row.silence) {
+        ("arrived", _) => ", by its own account".to_owned(),
+        (_, Some(why)) => format!(": {why}"),
+        _ => String::new(),
     };
-    line(&format!("mission {} of {site}: {ended}", row.mission));
+    line(&format!("mission {} of {site}: it {}{more}", row.mission, ended(row.ending)));
     let states: Vec<String> =
         row.by_state.iter().map(|(state, metres)| format!("{state} {} m", number(*metres))).collect();
     let states = if states.is_empty() { String::new() } else { format!(" ({})", states.join(", ")) };

@@ -19,7 +19,7 @@ use crate::navigation::floor::Floor;
 use crate::navigation::judge::RuleJudge;
 use crate::navigation::keep;
 use crate::navigation::learning::{Row, START_SIGMA_M, explore, known};
-use crate::navigation::missions::{ending, refuse};
+use crate::navigation::missions::{ended, ending, refuse};
 use crate::plan::course::Asked;
 use crate::site::whole::{self, Whole};
 use crate::words::number::number;
@@ -162,12 +162,8 @@ pub fn drive(
             number(heading)
         ));
         if let Some((number, ending)) = in_vain {
-            let how = match ending {
-                "no_way" => "there is no way",
-                "lost" => "the robot does not know where it is",
-                _ => "the robot gave up",
-            };
-            line(&format!("{name}:{number}: {how}; the orders after it were not followed"));
+            let how = ended(ending);
+            line(&format!("{name}:{number}: the robot {how}; the orders after it were not followed"));
         }
     }
     Ok(in_vain.is_none())

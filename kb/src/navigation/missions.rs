@@ -94,7 +94,7 @@ pub struct Judged {
 impl Judged {
     /// Whether a mission ended as it should: a robot that says that it has arrived stands over its goal.
     fn is_right(&self, outcome: &Outcome, radius: f64) -> bool {
-        match outcome.ending {
+        match outcome.trip.ending {
             Ending::Arrived => self.is_possible && outcome.miss_m <= radius,
             Ending::NoWay => !self.is_with_room,
             Ending::Lost | Ending::Silent | Ending::OutOfPatience => false,
@@ -122,23 +122,8 @@ impl Row {
             miss: outcome.miss_m,
             worst_error: outcome.worst_error_m,
         };
-        Self {
-            mission: number,
-            start: [mission.start.at.x, mission.start.at.y],
-            goal: [mission.goal.x, mission.goal.y],
-            ending: ending(outcome.ending),
-            silence: None,
-            length: outcome.path_m(),
-            by_state: BTreeMap::new(),
-            changes: outcome.changes.len() as u32,
-            cost: None,
-            replans: outcome.replans,
-            detours: outcome.detours,
-            touches: outcome.touches,
-            seconds: outcome.simulated_s,
-            milliseconds: 0.0,
-            truth: Some(truth),
-        }
+        let ends = [mission.start.at, mission.goal];
+        Self { truth: Some(truth), ..Self::of_trip(number, ends, &outcome.trip) }
     }
 
     /// How a mission went of which nobody knows more than the robot.
@@ -149,7 +134,7 @@ impl Row {
             goal: [goal.x, goal.y],
             ending: ending(trip.ending),
             silence: None,
-            length: trip.metres.iter().sum(),
+            length: trip.path_m(),
             by_state: BTreeMap::new(),
             changes: trip.changes.len() as u32,
             cost: None,
@@ -344,6 +329,17 @@ impl Stage<'_> {
             ..Row::of_trip(number, [start.at, goal], &trip)
         };
         (row, entries, noting.decided)
+    }
+}
+
+/// What a robot did at the end, in words: after "it".
+pub fn ended(ending: &str) -> &str {
+    match ending {
+        "no_way" => "found no way",
+        "lost" => "did not know where it was",
+        "silent" => "was not heard any more",
+        "gave_up" => "gave up",
+        other => other,
     }
 }
 

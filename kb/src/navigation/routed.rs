@@ -339,9 +339,10 @@ impl Missions<'_> {
                 .run(&on, &outfit, Some(site), judge, |entry| entries.push(entry), film)
                 .map_err(Error::of(Code::SimulateImpossible))
         })?;
-        let radius = ground.shapes.all[outcome.shape].radius_m;
+        let radius = ground.shapes.all[outcome.trip.shape].radius_m;
         let row = Row::new((number, mission), &outcome, Some(judged), radius);
-        let row = self.weighed(row, (&outcome.metres, &outcome.track, &outcome.changes), before);
+        let row =
+            self.weighed(row, (&outcome.trip.metres, &outcome.trip.track, &outcome.trip.changes), before);
         Ok(((row, journal.0, journal.1), said))
     }
 

@@ -10,6 +10,7 @@ use serde::Serialize;
 use serde_json::{Map, Value};
 
 use super::judge::RuleJudge;
+use super::missions::ended;
 use super::story::{self, Chapter};
 use crate::error::{Code, Error, Result};
 use crate::plan::Spoke;
@@ -210,17 +211,5 @@ fn told(value: &Value) -> String {
         Value::Number(value) => value.as_f64().map_or_else(|| value.to_string(), number),
         Value::String(text) => text.clone(),
         other => other.to_string(),
-    }
-}
-
-/// How a mission ended, in words.
-fn ended(ending: &str) -> &str {
-    match ending {
-        "arrived" => "arrived",
-        "no_way" => "found no way",
-        "lost" => "did not know where it was",
-        "silent" => "was not heard any more",
-        "gave_up" => "gave up",
-        other => other,
     }
 }

@@ -2,9 +2,9 @@
 
 use super::judge::{Action, Judge, StateDecision};
 use super::known::Building;
-use super::log::Log;
 use super::router::Router;
 use super::run::run;
+use super::trip::Trip;
 use super::{Ending, Event, Happening, Navigator, Settings};
 use crate::floor_plan::{Disc, Drawn, FloorPlan, Network, Rule};
 use crate::geometry::{Point, Segment};
@@ -82,23 +82,11 @@ impl<'w> Drivable<'w> {
     }
 }
 
-/// How a mission went.
+/// How a mission of a simulated robot went.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outcome {
-    pub ending: Ending,
-    /// The shape in which it ended.
-    pub shape: usize,
-    /// Metres that the robot really went, by shape.
-    pub metres: Vec<f64>,
-    /// Changes of shape, in order: from which into which.
-    pub changes: Vec<(usize, usize)>,
-    /// Times that a way was closed and another one looked for.
-    pub replans: u32,
-    pub detours: u32,
-    /// Seconds by the body's clock.
-    pub simulated_s: f64,
-    /// Touches of the skirt by the robot: it went there, and stopped.
-    pub touches: usize,
+    /// As it really was.
+    pub trip: Trip,
     /// The deepest that anything was within the robot, or hung in it, metres; below 0 where there was always a gap. More than
     /// a hair is a collision.
     pub overlap_m: f64,
@@ -108,8 +96,6 @@ pub struct Outcome {
     pub worst_error_m: f64,
     /// The largest error of the estimated heading, radians.
     pub worst_heading_error: f64,
-    /// Where the robot really was, in which shape, whenever it had gone on a little.
-    pub track: Vec<(Point, usize)>,
 }
 
 /// What can be, with the obstacles where they come to rest.
@@ -157,34 +143,29 @@ impl Mission {
         if let Some(film) = &mut film {
             **film = Some(Film::new(&body).to(self.goal));
         }
-        let mut outcome = Outcome::begun(on);
-        let mut log = Log::begun(self.start.at, on.shape, on.buildings.len());
+        let mut outcome = Outcome {
+            trip: Trip::begun(self.start.at, on.shape, on.buildings.len()),
+            overlap_m: f64::NEG_INFINITY,
+            miss_m: 0.0,
+            worst_error_m: 0.0,
+            worst_heading_error: 0.0,
+        };
         let mut before = body.pose();
         let ending = run(&mut body, &mut navigator, self.goal, router, judge, |body, navigator, events| {
-            log.note(before.at.distance(body.pose().at), body.pose().at, body.shape());
+            let at = body.pose().at;
+            outcome.trip.note(before.at.distance(at), (at, body.shape()), &events);
             outcome.note(body, navigator);
             before = body.pose();
             for event in events {
-                outcome.detours += u32::from(matches!(event.what, Happening::Detour { .. }));
                 if let Some(Some(film)) = film.as_deref_mut() {
                     film_event(film, body, navigator, &event);
                 }
                 journal(Entry { event, truth: Some(body.pose()) });
             }
         });
-        let Log { metres, changes, track, .. } = log;
-        Ok(Outcome {
-            ending,
-            shape: body.shape(),
-            metres,
-            changes,
-            track,
-            replans: navigator.replans(),
-            simulated_s: body.time_s(),
-            touches: body.touches_by_robot(),
-            miss_m: body.pose().at.distance(self.goal),
-            ..outcome
-        })
+        let touches = body.touches_by_robot();
+        let trip = Trip { touches, ..outcome.trip.ended(ending, &navigator) };
+        Ok(Outcome { trip, miss_m: body.pose().at.distance(self.goal), ..outcome })
     }
 
     /// Whether the mission can be done, by an exact search that knows of every obstacle where it comes to rest.
@@ -207,30 +188,6 @@ impl Mission {
 }
 
 impl Outcome {
-    /// Of a mission of which nothing was driven yet.
-    fn begun(on: &Drivable<'_>) -> Self {
-        Self {
-            ending: Ending::OutOfPatience,
-            shape: on.shape,
-            metres: Vec::new(),
-            changes: Vec::new(),
-            replans: 0,
-            detours: 0,
-            simulated_s: 0.0,
-            touches: 0,
-            overlap_m: f64::NEG_INFINITY,
-            miss_m: 0.0,
-            worst_error_m: 0.0,
-            worst_heading_error: 0.0,
-            track: Vec::new(),
-        }
-    }
-
-    /// Metres that the robot really went.
-    pub fn path_m(&self) -> f64 {
-        self.metres.iter().sum()
-    }
-
     /// Takes note of a step.
     fn note(&mut self, body: &Simulator, navigator: &Navigator<'_>) {
         let (truth, thought) = (body.pose(), navigator.estimate().pose);

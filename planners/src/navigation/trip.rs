@@ -1,23 +1,15 @@
-//! Missions of a body of which nobody knows where it really is, and how they went by its own account.
+//! How missions went, whoever knows where the robot is.
 
-use super::judge::Judge;
-use super::known::Building;
-use super::log::Log;
-use super::mission::{Entry, Outfit};
-use super::router::Router;
-use super::run::run;
-use super::{Ending, Happening, Navigator};
-use crate::body::Body;
+use super::{Ending, Event, Happening, Navigator};
 use crate::geometry::Point;
-use crate::pose::Pose;
 
-/// How a mission went, as the body and its navigator have it: where the robot really was is not known.
+/// How a mission went. Where the robot was is where it really was, if somebody knows that; else it is by its own account.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trip {
     pub ending: Ending,
     /// The shape in which it ended.
     pub shape: usize,
-    /// Metres that the wheels counted, by shape.
+    /// Metres that it went, by shape; by the count of its wheels where nobody knows better.
     pub metres: Vec<f64>,
     /// Changes of shape, in order: from which into which.
     pub changes: Vec<(usize, usize)>,
@@ -26,50 +18,54 @@ pub struct Trip {
     pub detours: u32,
     /// Seconds by the body's clock.
     pub seconds: f64,
-    /// Touches that the skirt felt.
+    /// Touches that the skirt felt; of a simulated robot those to which it went itself.
     pub touches: usize,
-    /// Where it thought that it was, in which shape, whenever it had gone on a little.
+    /// Where it was, in which shape, whenever it had gone on a little.
     pub track: Vec<(Point, usize)>,
 }
 
-/// Has a body driven from where it is said to stand to a goal.
-///
-/// # Arguments
-/// `buildings` is the building as it is known, for each shape of the robot, with the number of the shape in which it is. `router`
-/// finds the ways, where somebody else than the navigator does. `journal` gets every event.
-pub fn trip<B: Body>(
-    body: &mut B,
-    (buildings, shape): (&[Building], usize),
-    (start, goal): (Pose, Point),
-    outfit: &Outfit,
-    router: Option<&mut dyn Router>,
-    judge: &mut impl Judge,
-    mut journal: impl FnMut(Entry),
-) -> Trip {
-    let mut navigator =
-        Navigator::of_shapes((buildings, shape), outfit.model, outfit.navigation, outfit.estimate(start));
-    let mut log = Log::begun(start.at, shape, buildings.len());
-    let (mut before, mut detours, mut touches) = (navigator.odometry(), 0, 0);
-    let ending = run(body, &mut navigator, goal, router, judge, |_, navigator, events| {
-        let counted = navigator.odometry();
-        log.note(before.at.distance(counted.at), navigator.estimate().pose.at, navigator.shape());
-        before = counted;
-        for event in events {
-            detours += u32::from(matches!(event.what, Happening::Detour { .. }));
-            touches += usize::from(matches!(event.what, Happening::Contact { .. }));
-            journal(Entry { event, truth: None });
+/// The track has a point each so many metres.
+const TRACK_M: f64 = 0.25;
+
+impl Trip {
+    /// Of a robot in one of so many shapes, of which nothing was driven yet.
+    pub fn begun(at: Point, shape: usize, shapes: usize) -> Self {
+        Self {
+            ending: Ending::OutOfPatience,
+            shape,
+            metres: vec![0.0; shapes],
+            changes: Vec::new(),
+            replans: 0,
+            detours: 0,
+            seconds: 0.0,
+            touches: 0,
+            track: vec![(at, shape)],
         }
-    });
-    let Log { metres, changes, track, .. } = log;
-    Trip {
-        ending,
-        shape: navigator.shape(),
-        metres,
-        changes,
-        replans: navigator.replans(),
-        detours,
-        seconds: navigator.time_s(),
-        touches,
-        track,
+    }
+
+    /// Takes note of a step of so many metres to where the robot is now, in the shape in which it is now, and of what happened.
+    pub fn note(&mut self, by_m: f64, (at, now): (Point, usize), events: &[Event]) {
+        self.metres[self.shape] += by_m;
+        let is_changed = now != self.shape;
+        if is_changed {
+            self.changes.push((self.shape, now));
+            self.shape = now;
+        }
+        if is_changed || self.track.last().is_none_or(|(last, _)| last.distance(at) >= TRACK_M) {
+            self.track.push((at, now));
+        }
+        for event in events {
+            self.detours += u32::from(matches!(event.what, Happening::Detour { .. }));
+            self.touches += usize::from(matches!(event.what, Happening::Contact { .. }));
+        }
+    }
+
+    pub(super) fn ended(self, ending: Ending, navigator: &Navigator<'_>) -> Self {
+        Self { ending, replans: navigator.replans(), seconds: navigator.time_s(), ..self }
+    }
+
+    /// Metres that it went.
+    pub fn path_m(&self) -> f64 {
+        self.metres.iter().sum()
     }
 }

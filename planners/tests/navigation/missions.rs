@@ -29,7 +29,7 @@ fn what_is_possible_arrives_what_is_not_is_said_and_nothing_is_run_into() {
                 .unwrap();
             let told = format!("{name} {number}: {possible:?} {outcome:?}");
             assert!(outcome.overlap_m < 1e-6, "{told}");
-            match outcome.ending {
+            match outcome.trip.ending {
                 Ending::Arrived => {
                     arrived += 1;
                     assert!(possible.is_for_radius && outcome.miss_m < 0.2, "{told}");

@@ -79,14 +79,18 @@ fn the_robot_goes_on_its_knees_beneath_a_pipe_and_gets_up_behind_it() {
         &mission([1.0, 1.5], [9.0, 1.5], Vec::new()),
         &mut Says(|[from, _]: [Point; 2], _, _: &[Met]| Some(beneath(from)), Vec::new()),
     );
-    assert_eq!(went.ending, Ending::Arrived, "{went:?}");
-    assert_eq!(went.changes, [(UPRIGHT, KNEELING), (KNEELING, UPRIGHT)]);
-    assert!(went.overlap_m < 0.0 && went.touches == 0, "{went:?}");
+    assert_eq!(went.trip.ending, Ending::Arrived, "{went:?}");
+    assert_eq!(went.trip.changes, [(UPRIGHT, KNEELING), (KNEELING, UPRIGHT)]);
+    assert!(went.overlap_m < 0.0 && went.trip.touches == 0, "{went:?}");
     let kneeling = |shape: &(Point, usize)| shape.1 == KNEELING;
-    assert!(went.track.iter().filter(|at| (3.7..5.3).contains(&at.0.x)).all(kneeling), "{:?}", went.track);
-    assert!((1.7..2.2).contains(&went.metres[KNEELING]), "{:?}", went.metres);
+    assert!(
+        went.trip.track.iter().filter(|at| (3.7..5.3).contains(&at.0.x)).all(kneeling),
+        "{:?}",
+        went.trip.track
+    );
+    assert!((1.7..2.2).contains(&went.trip.metres[KNEELING]), "{:?}", went.trip.metres);
     // eight metres, two changes of shape, and looks around
-    assert!(went.simulated_s > 6.0 + 1.7 / 0.25 + 6.3 / 0.8, "{}", went.simulated_s);
+    assert!(went.trip.seconds > 6.0 + 1.7 / 0.25 + 6.3 / 0.8, "{}", went.trip.seconds);
 }
 
 /// What judges missions can fail: who stays upright touches the pipe, and who gets up beneath it has it in its head.
@@ -97,8 +101,8 @@ fn who_stays_upright_does_not_get_through_and_who_gets_up_too_early_is_seen_to()
     let upright =
         |[from, _]: [Point; 2], _, _: &[Met]| Some(vec![stretch(UPRIGHT, &[[from.x, from.y], [9.0, 1.5]])]);
     let went = corridor.run(&there, &mut Says(upright, Vec::new()));
-    assert_eq!(went.ending, Ending::NoWay);
-    assert!(went.track.iter().all(|at| at.0.x < 3.71) && went.overlap_m < 1e-6, "{went:?}");
+    assert_eq!(went.trip.ending, Ending::NoWay);
+    assert!(went.trip.track.iter().all(|at| at.0.x < 3.71) && went.overlap_m < 1e-6, "{went:?}");
 
     let mut blind = Corridor::new();
     blind.buildings[UPRIGHT].overhead.clear();
@@ -127,7 +131,7 @@ fn where_a_box_shuts_the_corridor_it_says_what_it_saw_and_once_it_has_begun_anew
         Vec::new(),
     );
     let went = corridor.run(&shut, &mut router);
-    assert_eq!((went.ending, went.touches), (Ending::NoWay, 0), "{went:?}");
+    assert_eq!((went.trip.ending, went.trip.touches), (Ending::NoWay, 0), "{went:?}");
     let met: Vec<&Met> = router.1.iter().flatten().collect();
     assert!(!met.is_empty() && met.iter().all(|met| (met.at.x - 2.05).abs() < 0.1), "{met:?}");
     let saw = |met: &&Met| {
@@ -137,7 +141,7 @@ fn where_a_box_shuts_the_corridor_it_says_what_it_saw_and_once_it_has_begun_anew
     assert!(met.iter().all(|met| met.heading.abs() < 0.5), "{met:?}");
     assert!(router.1.iter().filter(|met| met.is_empty()).count() > 1, "it began anew");
     let given = router.1.iter().filter(|met| met.is_empty()).count();
-    assert_eq!(went.replans as usize, given, "each way that it was given was shut");
+    assert_eq!(went.trip.replans as usize, given, "each way that it was given was shut");
 }
 
 /// Nothing stands where nobody may go, and yet detours keep to the other side.
@@ -151,8 +155,8 @@ fn a_detour_does_not_lead_over_what_is_closed() {
         let line = Segment::new(Point::new(2.2, from), Point::new(2.2, to));
         corridor.buildings.iter_mut().for_each(|building| building.closed.push(line));
         let went = corridor.run(&there, &mut Says(straight, Vec::new()));
-        assert_eq!((went.ending, went.touches), (Ending::Arrived, 0), "{went:?}");
-        let beside = went.track.iter().filter(|at| (2.0..2.4).contains(&at.0.x));
+        assert_eq!((went.trip.ending, went.trip.touches), (Ending::Arrived, 0), "{went:?}");
+        let beside = went.trip.track.iter().filter(|at| (2.0..2.4).contains(&at.0.x));
         assert!(
             beside.clone().count() > 0 && beside.clone().all(|at| (at.0.y < 1.5) == is_below),
             "{went:?}"
@@ -173,7 +177,7 @@ fn it_does_not_change_its_shape_where_something_that_it_met_leaves_no_room() {
     };
     let mut router = Says(way, Vec::new());
     let went = corridor.run(&beside, &mut router);
-    assert_eq!(went.ending, Ending::Arrived, "{went:?}");
-    assert!(went.overlap_m < 0.0 && went.changes == [(UPRIGHT, KNEELING)], "{went:?}");
+    assert_eq!(went.trip.ending, Ending::Arrived, "{went:?}");
+    assert!(went.overlap_m < 0.0 && went.trip.changes == [(UPRIGHT, KNEELING)], "{went:?}");
     assert!(router.1.iter().any(|met| !met.is_empty()), "it was closed once");
 }

@@ -118,7 +118,7 @@ impl Run {
     }
 
     pub fn has_arrived(&self) -> bool {
-        self.outcome.ending == Ending::Arrived && self.outcome.miss_m < 0.1
+        self.outcome.trip.ending == Ending::Arrived && self.outcome.miss_m < 0.1
     }
 
     pub fn count(&self, is: impl Fn(&Happening) -> bool) -> usize {

@@ -20,7 +20,7 @@ fn a_free_way_is_gone_straight_by_the_states_of_figure_5() {
     let run = run(&mission([1.0, 1.0], [1.0, 4.0], Vec::new()));
     assert!(run.has_arrived(), "{}", run.told());
     assert_eq!(run.states(), [Decide, Wait, Decide, Turn, Wait, Decide, Move, Wait, Decide, Hold]);
-    assert!((run.outcome.path_m() - 3.0).abs() < 0.1);
+    assert!((run.outcome.trip.path_m() - 3.0).abs() < 0.1);
 }
 
 #[test]
@@ -29,7 +29,7 @@ fn a_way_through_a_door_is_near_the_shortest() {
     let optimum = mission.possible(&two_rooms(), 0.25).unwrap().optimum_m.unwrap();
     let run = run(&mission);
     assert!(run.has_arrived(), "{}", run.told());
-    assert!(run.outcome.path_m() < 1.03 * optimum, "{} for {optimum}", run.outcome.path_m());
+    assert!(run.outcome.trip.path_m() < 1.03 * optimum, "{} for {optimum}", run.outcome.trip.path_m());
 }
 
 #[test]
@@ -37,7 +37,7 @@ fn a_box_on_the_line_is_passed_on_the_shorter_side() {
     // 0.4 m of the box are left of the line, 1.2 m are right of it
     let run = run(&mission([1.0, 3.0], [4.4, 3.0], vec![stands(2.7, 2.6, 0.4, 1.6)]));
     assert!(run.has_arrived(), "{}", run.told());
-    assert_eq!(run.outcome.touches, 0);
+    assert_eq!(run.outcome.trip.touches, 0);
     assert!(run.count(|what| matches!(what, Happening::Detour { .. })) > 0);
     assert!(run.track().all(|at| at.y > 2.9), "it is passed on the left");
     let lengths = run.journal.iter().find_map(|entry| match entry.event.what {
@@ -59,7 +59,7 @@ fn a_box_in_a_door_closes_that_way_and_the_other_door_is_taken() {
     });
     let door = doors[closed.unwrap()];
     assert!(door.from.y.max(door.to.y) <= 2.0, "the lower door is the closed one");
-    assert!(run.outcome.replans > 0);
+    assert!(run.outcome.trip.replans > 0);
     assert!(run.track().any(|at| at.y > 4.0 && (at.x - 5.0).abs() < 0.7), "the upper door is passed");
 }
 
@@ -67,18 +67,18 @@ fn a_box_in_a_door_closes_that_way_and_the_other_door_is_taken() {
 fn boxes_in_both_doors_leave_no_way() {
     let boxes = vec![stands(5.0, 1.5, 0.4, 0.8), stands(5.0, 4.5, 0.4, 0.8)];
     let run = run(&mission([2.0, 2.0], [8.0, 2.0], boxes));
-    assert_eq!(run.outcome.ending, Ending::NoWay, "{}", run.told());
-    assert_eq!(run.outcome.touches, 0);
+    assert_eq!(run.outcome.trip.ending, Ending::NoWay, "{}", run.told());
+    assert_eq!(run.outcome.trip.touches, 0);
     let retries = run.count(|what| matches!(what, Happening::Retried));
     assert!(retries >= Settings::default().most_retries as usize, "it is looked at anew before that is said");
-    assert!(run.outcome.simulated_s >= Settings::default().no_way_after_s);
+    assert!(run.outcome.trip.seconds >= Settings::default().no_way_after_s);
 }
 
 #[test]
 fn a_goal_under_a_box_is_not_reached() {
     // The sides of the box come into sight one after the other, as if it moved: it went round and round.
     let run = run(&mission([1.0, 3.0], [4.0, 3.0], vec![stands(4.0, 3.0, 0.6, 0.6)]));
-    assert_eq!(run.outcome.ending, Ending::NoWay, "{}", run.told());
+    assert_eq!(run.outcome.trip.ending, Ending::NoWay, "{}", run.told());
 }
 
 #[test]
@@ -137,7 +137,7 @@ fn a_door_that_the_judge_closes_is_not_passed_even_if_it_is_the_only_one_left() 
 
     let blocked = mission([2.0, 2.0], [8.0, 2.0], vec![stands(5.0, 4.5, 0.4, 0.8)]);
     let run = run_with(&blocked, &exact(), &mut LowerDoorForbidden);
-    assert_eq!(run.outcome.ending, Ending::NoWay, "{}", run.told());
+    assert_eq!(run.outcome.trip.ending, Ending::NoWay, "{}", run.told());
     assert!(run.track().all(|at| at.x < 5.0));
 }
 
@@ -154,8 +154,8 @@ fn a_mission_ends_when_patience_does() {
     let mut outfit = exact();
     outfit.navigation.patience_s = 3.0;
     let run = run_with(&mission([1.0, 1.0], [9.0, 5.0], Vec::new()), &outfit, &mut Table);
-    assert_eq!(run.outcome.ending, Ending::OutOfPatience);
-    assert!(run.outcome.simulated_s < 3.2);
+    assert_eq!(run.outcome.trip.ending, Ending::OutOfPatience);
+    assert!(run.outcome.trip.seconds < 3.2);
 }
 
 #[test]
@@ -187,5 +187,5 @@ fn in_manual_mode_the_user_drives_and_the_position_is_kept() {
 fn a_robot_at_its_goal_looks_around_and_is_there() {
     let run = run(&mission([2.0, 2.0], [2.0, 2.0], Vec::new()));
     assert!(run.has_arrived(), "{}", run.told());
-    assert!(run.outcome.path_m() < 0.01 && run.outcome.simulated_s < 60.0, "{}", run.told());
+    assert!(run.outcome.trip.path_m() < 0.01 && run.outcome.trip.seconds < 60.0, "{}", run.told());
 }

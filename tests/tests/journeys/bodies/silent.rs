@@ -27,7 +27,7 @@ fn silent(site: &TestSite, body: &str, words: &[&str]) {
         site.adit("drive", &["home", "window", "--keep", "--timeout", "2", "--body", body]).expect_status(1);
     for word in words {
         assert!(
-            ran.stdout.contains("it is not heard any more: ") && ran.stdout.contains(word),
+            ran.stdout.contains("it was not heard any more: ") && ran.stdout.contains(word),
             "{body}: {}",
             ran.stdout
         );

@@ -76,7 +76,7 @@ fn a_drive_stops_at_the_first_order_that_fails_and_names_its_line() {
 
     let orders = "# by hand\n\nstart 1.5,1.5\nplace before\n\ngo 99,99 # far out\nplace after\n";
     let ran = drive(orders, &[]).expect_status(1);
-    let said = "orders.txt:6: there is no way; the orders after it were not followed";
+    let said = "orders.txt:6: the robot found no way; the orders after it were not followed";
     assert!(ran.stdout.contains(said), "{}", ran.stdout);
     assert_eq!(sql(&folder, "SELECT group_concat(place) FROM learned_places"), "before");
     let ran = drive(orders, &["--json"]).expect_status(1).json();

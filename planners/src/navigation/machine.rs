@@ -1,0 +1,39 @@
+//! Missions of a body of which nobody knows where it really is.
+
+use super::Navigator;
+use super::judge::Judge;
+use super::known::Building;
+use super::mission::{Entry, Outfit};
+use super::router::Router;
+use super::run::run;
+use super::trip::Trip;
+use crate::body::Body;
+use crate::geometry::Point;
+use crate::pose::Pose;
+
+/// Has a body driven from where it is said to stand to a goal.
+///
+/// # Arguments
+/// `buildings` is the building as it is known, for each shape of the robot, with the number of the shape in which it is. `router`
+/// finds the ways, where somebody else than the navigator does. `journal` gets every event.
+pub fn trip<B: Body>(
+    body: &mut B,
+    (buildings, shape): (&[Building], usize),
+    (start, goal): (Pose, Point),
+    outfit: &Outfit,
+    router: Option<&mut dyn Router>,
+    judge: &mut impl Judge,
+    mut journal: impl FnMut(Entry),
+) -> Trip {
+    let mut navigator =
+        Navigator::of_shapes((buildings, shape), outfit.model, outfit.navigation, outfit.estimate(start));
+    let mut trip = Trip::begun(start.at, shape, buildings.len());
+    let mut before = navigator.odometry();
+    let ending = run(body, &mut navigator, goal, router, judge, |_, navigator, events| {
+        let counted = navigator.odometry();
+        trip.note(before.at.distance(counted.at), (navigator.estimate().pose.at, navigator.shape()), &events);
+        before = counted;
+        events.into_iter().for_each(|event| journal(Entry { event, truth: None }));
+    });
+    trip.ended(ending, &navigator)
+}
