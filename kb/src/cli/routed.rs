@@ -56,7 +56,6 @@ pub(super) struct Setting {
     rules: Arc<RuleBase>,
     /// The rule bases, one a line, the lowest first.
     bases: String,
-    /// The site's.
     pub name: String,
 }
 

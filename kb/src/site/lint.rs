@@ -48,15 +48,20 @@ pub fn unread(
             |name: &str| asked.iter().any(|asked| asked.split('.').next() == name.split('.').next());
         let for_people = rules.rules().iter().flat_map(Rule::sets).map(ToString::to_string);
         let for_people = for_people.filter(|name| !is_asked(name));
-        return unread_but(rules, asked.iter().cloned().chain(for_people));
+        return unread_but(rules, asked.iter().cloned().chain(for_people), |_| true);
     }
     let needs = planners.iter().flat_map(|planner| planner.signature().needs);
     let needs = needs.map(|need| need.trim_end_matches('?').to_owned());
-    unread_but(rules, READ_BY_ROUTES.map(str::to_owned).into_iter().chain(needs).chain(asked.iter().cloned()))
+    let read = READ_BY_ROUTES.map(str::to_owned).into_iter().chain(needs).chain(asked.iter().cloned());
+    unread_but(rules, read, |_| true)
 }
 
-/// As [`unread`], where these properties are read by others than rules.
-pub fn unread_but(rules: &RuleBase, asked: impl IntoIterator<Item = String>) -> Vec<Finding> {
+/// As [`unread`], where these properties are read by others than rules, of the rules of some files.
+pub fn unread_but(
+    rules: &RuleBase,
+    asked: impl IntoIterator<Item = String>,
+    is_looked_at: impl Fn(&str) -> bool,
+) -> Vec<Finding> {
     let mut read: BTreeSet<String> = asked.into_iter().collect();
     for rule in rules.rules() {
         read.extend(
@@ -64,7 +69,7 @@ pub fn unread_but(rules: &RuleBase, asked: impl IntoIterator<Item = String>) -> 
         );
     }
     let mut found = Vec::new();
-    for rule in rules.rules() {
+    for rule in rules.rules().iter().filter(|rule| is_looked_at(rule.file())) {
         for property in rule.sets().map(ToString::to_string).filter(|property| !read.contains(property)) {
             let (name, file, line) = (rule.name(), rule.file(), rule.line());
             let message = format!(

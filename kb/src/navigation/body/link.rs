@@ -13,7 +13,6 @@ use super::message::{Answer, Order, line};
 /// How long a program may take to end once it is told to.
 const LAST_WORDS: Duration = Duration::from_secs(2);
 
-/// What is heard.
 enum Heard {
     Line(String),
     /// What is no line, in words. Nothing is heard after it.
