@@ -87,7 +87,7 @@ fn before_a_scan(building: &Building) -> (Navigator<'_>, RuleJudge, Sensed) {
             happened.iter().filter(|event| matches!(event.what, Happening::SetEstimatedPosition(_))).count();
         if scans == 2 {
             let (navigator, mut body) = before;
-            return (navigator, judge, body.sense().unwrap());
+            return (navigator, judge, body.sense().expect("a simulated body answers"));
         }
     }
 }

@@ -52,7 +52,7 @@ fn readings_of_a_turn(bencher: Bencher, walls: usize) {
     let mut robot = robot(&building(walls));
     bencher.bench_local(|| {
         (0..120)
-            .map(|_| robot.sense().unwrap().readings[0])
+            .map(|_| robot.sense().expect("a simulated body answers").readings[0])
             .filter(|reading| reading.range_m.is_some())
             .count()
     });
@@ -62,7 +62,8 @@ fn readings_of_a_turn(bencher: Bencher, walls: usize) {
 fn update_of_the_model(bencher: Bencher, segments: usize) {
     let walls = building(segments);
     let mut robot = robot(&walls);
-    let scan: Vec<Reading> = (0..120).map(|_| robot.sense().unwrap().readings[0]).collect();
+    let scan: Vec<Reading> =
+        (0..120).map(|_| robot.sense().expect("a simulated body answers").readings[0]).collect();
     let model = model(&walls);
     bencher.with_inputs(|| model.clone()).bench_local_values(|mut model| {
         let update = model.update(&scan, 1.0, table);
@@ -74,7 +75,8 @@ fn update_of_the_model(bencher: Bencher, segments: usize) {
 fn update_where_all_are_within_hearing(bencher: Bencher, segments: usize) {
     let walls = within_hearing(segments);
     let mut robot = robot(&walls);
-    let scan: Vec<Reading> = (0..120).map(|_| robot.sense().unwrap().readings[0]).collect();
+    let scan: Vec<Reading> =
+        (0..120).map(|_| robot.sense().expect("a simulated body answers").readings[0]).collect();
     let model = model(&walls);
     bencher.with_inputs(|| model.clone()).bench_local_values(|mut model| {
         let update = model.update(&scan, 1.0, table);

@@ -127,7 +127,7 @@ fn vetted(
     }
     // of the shipped ones sites carry them out
     let is_own = |file: &str| shipped_in.is_none_or(|shipped| !file.starts_with(shipped));
-    let idle = lint::not_carried_out(&base, "worlds", Finding::said, &is_own);
+    let idle = lint::not_carried_out(&base, "worlds", Finding::said, is_own);
     if !idle.is_empty() && !is_shipped {
         return Err(Error::all(idle));
     }
@@ -140,7 +140,7 @@ fn vetted(
     let remarks = if is_shipped {
         Vec::new()
     } else {
-        let unread = lint::unread_but(&base, kind.asked(), &is_own);
+        let unread = lint::unread_but(&base, kind.asked(), is_own);
         let warnings = warnings.iter().filter(|warning| is_own(&warning.file)).map(ToString::to_string);
         warnings.chain(unread.iter().map(ToString::to_string)).collect()
     };

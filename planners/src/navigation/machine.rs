@@ -33,7 +33,9 @@ pub fn trip<B: Body>(
         let counted = navigator.odometry();
         trip.note(before.at.distance(counted.at), (navigator.estimate().pose.at, navigator.shape()), &events);
         before = counted;
-        events.into_iter().for_each(|event| journal(Entry { event, truth: None }));
+        for event in events {
+            journal(Entry { event, truth: None });
+        }
     });
     trip.ended(ending, &navigator)
 }
