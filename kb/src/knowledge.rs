@@ -275,9 +275,10 @@ impl KnowledgeBase {
         self.course.as_ref()
     }
 
-    /// The tables that the map's file fills.
+    /// The tables that the map's file fills, or `site.toml`.
     pub(crate) fn tables_of_map(&self) -> Vec<TableFile> {
-        self.course.as_ref().map_or_else(Vec::new, |course| course.tables())
+        let of_map = self.course.as_ref().map_or_else(Vec::new, |course| course.tables());
+        of_map.into_iter().chain(self.site.tables_within()).collect()
     }
 
     /// What vehicles can carry, as the map's file says.

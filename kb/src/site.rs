@@ -3,6 +3,8 @@
 pub(crate) mod alone;
 pub(crate) mod base;
 pub(crate) mod clock;
+pub(crate) mod driving;
+pub(crate) mod figures;
 pub(crate) mod hours;
 pub(crate) mod lint;
 pub(crate) mod over;
@@ -30,6 +32,8 @@ use toml::de::DeValue;
 
 use crate::error::{self, Error, Result};
 use crate::site::base::Base;
+use crate::site::driving::Driving;
+use crate::site::tables::TableFile;
 use crate::words::suggest::did_you_mean;
 use siphasher::sip::SipHasher13;
 
@@ -100,6 +104,8 @@ pub struct Site {
     settings: MapSettings,
     overlay: Overlay,
     areas: Vec<AreaFile>,
+    /// How its robots drive, where the file says it.
+    driving: Option<Driving>,
     text: String,
 }
 
@@ -200,7 +206,7 @@ const KEYS_WITHOUT_ROOMS: [&str; 7] = ["name", "map", "rules", "starts", "hours"
 /// The keys of a site without a map.
 const KEYS_WITHOUT_MAP: [&str; 5] = ["name", "rules", "rooms", "hours", "timezone"];
 
-const KEYS: [&str; 12] = [
+const KEYS: [&str; 14] = [
     "name",
     "map",
     "robots",
@@ -213,6 +219,8 @@ const KEYS: [&str; 12] = [
     "clearance",
     "hours",
     "timezone",
+    driving::NAVIGATION,
+    driving::SENSORS,
 ];
 
 impl Site {
@@ -264,6 +272,7 @@ impl Site {
             settings: settings(&fields, &mut problems),
             overlay: Overlay::from_fields(&fields, &mut problems),
             areas: AreaFile::from_fields(&fields, folder, &mut problems),
+            driving: driving(&fields, &mut problems),
             text: text.clone(),
         };
         site.check_clearance(&fields, &mut problems);
@@ -291,6 +300,12 @@ impl Site {
     /// The folder of tables that seed the site's own.
     pub fn tables(&self) -> PathBuf {
         self.folder.join("tables")
+    }
+
+    /// The tables that `site.toml` fills.
+    pub fn tables_within(&self) -> Vec<TableFile> {
+        let file = self.folder.join("site.toml");
+        self.driving.iter().flat_map(|driving| driving.tables(&file)).collect()
     }
 
     /// Whether there is a map that is cut into rooms, and so states of robots.
@@ -506,6 +521,12 @@ pub(crate) fn not_negative(fields: &Fields<'_, '_>, key: &str, problems: &mut Ve
     let message = format!("`{key}` is {} and must not be negative", number.value);
     problems.push(fields.text.problem(Code::NotPositive, &number.span, message));
     None
+}
+
+/// `[navigation]` and `[sensors]`: how robots drive on a site that is cut into rooms.
+fn driving(fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> Option<Driving> {
+    let is_said = [driving::NAVIGATION, driving::SENSORS].iter().any(|table| fields.get(table).is_some());
+    is_said.then(|| Driving::of_rooms().read(fields, ["[navigation]", "[sensors]"], problems))
 }
 
 fn settings(fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> MapSettings {

@@ -11,6 +11,8 @@ pub enum Range {
     NotNegative,
     /// From 0 to 10: what is kept free, metres.
     Room,
+    /// From 0 to 1.
+    Share,
     /// 0, 1, 2, ... at most 1,000,000.
     Times,
     /// 1, 2, ... at most 1,000.
@@ -31,6 +33,7 @@ impl Range {
             Self::Grain => (0.01, 10.0, "must be at least 0.01"),
             Self::NotNegative => (0.0, 1e6, "must not be negative"),
             Self::Room => (0.0, 10.0, "must not be negative"),
+            Self::Share => (0.0, 1.0, "must not be negative"),
             Self::Times => (0.0, 1e6, "must be a whole number from 0 on"),
             Self::Count => (1.0, 1e3, "must be a whole number from 1 on"),
             Self::YesOrNo => (0.0, 1.0, "must be 1 (yes) or 0 (no)"),
@@ -40,6 +43,7 @@ impl Range {
             return Some(match self {
                 Self::Positive => "must be at most 10,000",
                 Self::Grain | Self::Room => "must be at most 10",
+                Self::Share => "must be at most 1",
                 Self::NotNegative => "must be at most 1,000,000",
                 Self::Count => "must be at most 1,000",
                 Self::Times | Self::YesOrNo => must,
@@ -51,7 +55,7 @@ impl Range {
 }
 
 /// A figure of settings `S`.
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug)]
 pub struct Figure<S: 'static> {
     /// Its name.
     pub name: &'static str,

@@ -19,6 +19,7 @@ use crate::plan::consult::Class;
 use crate::plan::course::{Asked, Course, ObjectsOf, Pathfinder, no_map, refuse_gaps};
 use crate::plan::figures;
 use crate::plan::rules::Kind;
+use crate::site::figures::table;
 use crate::site::tables::TableFile;
 use crate::words::number::number;
 
@@ -131,7 +132,7 @@ impl Course for CellOf {
         });
         tables.push(of_map("objects", &OBJECTS, objects.collect()));
         tables.push(of_map("goals", &GOALS, goals.collect()));
-        tables.push(figures::table(&self.file, "learning", Settings::FIGURES, &self.cell.settings));
+        tables.push(table(&self.file, "learning", Settings::FIGURES, &self.cell.settings));
         tables
     }
 

@@ -7,7 +7,7 @@ use adit_planners::read::{Code, Fields, Located, Problem};
 
 use super::cell::{Cell, Goal, RobotKind, Target};
 use super::draft::{ArmDraft, Draft, pose};
-use crate::plan::figures::figures;
+use crate::site::figures::figures;
 
 const ARM: [&str; 8] = ["links", "link_radius", "base", "joint_limits", "home", "object", "goal", "learning"];
 const DISC: [&str; 6] = ["bounds", "radius", "home", "object", "goal", "learning"];

@@ -13,7 +13,7 @@ use crate::words::number::number;
 use crate::words::suggest::{did_you_mean, listed};
 
 /// Start and goals of a question.
-pub(super) struct Ends {
+pub(crate) struct Ends {
     /// As they were named, the start first.
     pub named: Vec<End>,
     pub start: Start,

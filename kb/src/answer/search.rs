@@ -18,8 +18,17 @@ struct Found {
 
 impl Basis<'_> {
     /// The route to the one of the goals that costs least, into the answer.
-    pub fn search(&self, names: &[String], mut answer: Answer) -> Result<Answer> {
-        let Some(ends) = self.ends(names, &mut answer)? else { return Ok(answer) };
+    pub fn search(&self, names: &[String], answer: Answer) -> Result<Answer> {
+        let (mut answer, ends) = self.found(names, answer)?;
+        if let (Status::NoRoute, Some(ends)) = (answer.status, ends) {
+            answer.reason = Some(self.no_route(&ends, &answer)?);
+        }
+        Ok(answer)
+    }
+
+    /// The same, without a reason where there is none, which takes much longer to find; and the ends, where they are on the map.
+    pub fn found(&self, names: &[String], mut answer: Answer) -> Result<(Answer, Option<Ends>)> {
+        let Some(ends) = self.ends(names, &mut answer)? else { return Ok((answer, None)) };
         let found = self.find(&ends)?;
         let is_of_answer =
             |index: usize| found.as_ref().is_none_or(|found| index == 0 || index == found.goal + 1);
@@ -31,9 +40,8 @@ impl Basis<'_> {
             self.along(&found.way, found.is_to_point, &mut answer)?;
         } else {
             answer.status = Status::NoRoute;
-            answer.reason = Some(self.no_route(&ends, &answer)?);
         }
-        Ok(answer)
+        Ok((answer, Some(ends)))
     }
 
     /// What [`search`](Self::search) finds, as JSON, in microseconds; `None` where there is no route, an end was moved, or the

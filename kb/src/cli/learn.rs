@@ -120,8 +120,7 @@ pub fn drive(
     let name = script.display().to_string();
     let script = parse(&name, &text, learned)?;
     let walls: Vec<Segment> = truth.plan.barriers().into_iter().map(Segment::from).collect();
-    let mut outfit = Outfit { navigation: truth.settings, start_sigma_m: START_SIGMA_M, ..Outfit::default() };
-    outfit.robot.radius_m = truth.network.disc.radius;
+    let outfit = Outfit { start_sigma_m: START_SIGMA_M, ..truth.driving.outfit(truth.network.disc.radius) };
     let mut judge = RuleJudge::of_mission(asked, &learned.told)?;
     let building = learned.building();
     let from = (script.start, args.seed);

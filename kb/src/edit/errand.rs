@@ -67,20 +67,32 @@ impl State {
     pub fn route_on_errand(
         self,
         errand: &Errand,
-        ends: (&str, &[String]),
-        robot: Option<&str>,
-    ) -> Result<Answer> {
-        self.route_after(&[], errand, ends, robot)
-    }
-
-    /// The route on an errand after edits, which are taken back with it.
-    pub(crate) fn route_after(
-        mut self,
-        edits: &[Edit],
-        errand: &Errand,
         (start, goals): (&str, &[String]),
         robot: Option<&str>,
     ) -> Result<Answer> {
+        let state = self.on_errand(&[], errand, robot)?;
+        let robot = answer::pick(&state.robots(), robot)?;
+        let blank = Answer::blank(&robot, start, goals, state.generation);
+        Basis { ends_in: errand.ends_in(), ..state.basis() }.search(goals, blank)
+    }
+
+    /// The best route to a goal on an errand after edits, which nobody keeps; where there is none, nothing is said of why.
+    pub(crate) fn route_after(
+        self,
+        edits: &[Edit],
+        errand: &Errand,
+        (start, goal): (&str, &str),
+        robot: &str,
+    ) -> Result<Answer> {
+        let state = self.on_errand(edits, errand, Some(robot))?;
+        let goals = [goal.to_owned()];
+        let blank = Answer::blank(robot, start, &goals, state.generation);
+        let basis = Basis { ends_in: errand.ends_in(), ..state.basis() };
+        basis.found(&goals, blank).map(|(answer, _)| answer)
+    }
+
+    /// What is so on an errand after edits, which are taken back with it.
+    fn on_errand(mut self, edits: &[Edit], errand: &Errand, robot: Option<&str>) -> Result<Self> {
         if errand.at.is_some() {
             self.site = KnowledgeBase::clone(&self.site).at(errand.at.as_deref())?.shared();
         }
@@ -94,9 +106,7 @@ impl State {
         })?;
         let step = self.step(told, &mut Nothing, &Silent)?;
         self.accept(step);
-        let robot = answer::pick(&self.robots(), robot)?;
-        let blank = Answer::blank(&robot, start, goals, self.generation);
-        Basis { ends_in: errand.ends_in(), ..self.basis() }.search(goals, blank)
+        Ok(self)
     }
 }
 

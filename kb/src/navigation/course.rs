@@ -10,7 +10,6 @@ use adit_engine::Schema;
 use adit_planners::facts::Facts;
 use adit_planners::floor_plan::{Disc, Drawn, FloorPlan, Network, RegionsAndAdits, outline};
 use adit_planners::geometry::Point;
-use adit_planners::navigation::Settings;
 use adit_planners::planner::Planner;
 use adit_planners::read::{Code as MapCode, Problem};
 use adit_planners::world;
@@ -24,6 +23,7 @@ use crate::plan::consult::Class;
 use crate::plan::course::{Asked, Course, Pathfinder, no_map};
 use crate::plan::figures;
 use crate::plan::rules::Kind;
+use crate::site::driving::Driving;
 use crate::site::tables::TableFile;
 
 const WALLS: [(&str, &str); 5] =
@@ -38,9 +38,6 @@ const MARKS: [(&str, &str); 6] = [
     ("property", "TEXT"),
     ("value", "TEXT"),
 ];
-
-/// The table of the navigator's figures.
-const FIGURES: &str = "navigation";
 
 /// What the robot is called.
 const ROBOT: &str = "robot";
@@ -79,13 +76,13 @@ impl Course for FloorOf {
                 Cell::from(mark.value.as_str()),
             ]
         });
-        vec![
+        let own = vec![
             TableFile::of_map(&self.file, "walls", (&WALLS, 1), walls.collect()),
             TableFile::of_map(&self.file, "solids", (&SOLIDS, 1), solids.collect()),
             TableFile::of_map(&self.file, "vehicles", (&VEHICLES, 1), vec![vehicle]),
             TableFile::of_map(&self.file, "marks", (&MARKS, 1), marks.collect()),
-            figures::table(&self.file, FIGURES, Settings::FIGURES, &self.floor.settings),
-        ]
+        ];
+        own.into_iter().chain(self.floor.driving.tables(&self.file)).collect()
     }
 
     fn places(&self) -> Vec<Place> {
@@ -140,8 +137,7 @@ impl FloorOf {
         let plan = FloorPlan::new(drawn).map_err(|errors| Error::all(errors.problems))?;
         let vehicles = asked.objects("VEHICLES");
         let marks = marks(asked)?;
-        let mut settings = Settings::default();
-        figures::read(asked.objects("NAVIGATION"), Settings::FIGURES, &mut settings)?;
+        let driving = figures::driving(asked, Driving::of_floor())?;
         let doorways = asked.objects("DOORWAYS");
         let closed: Vec<usize> = doorways.rows().filter(|row| doorways.truth(*row, "closed")).collect();
         let of_robot = |row: usize| -> Result<OfRobot> {
@@ -168,7 +164,7 @@ impl FloorOf {
                 Some(_) => Told::default(),
             };
             let robot = vehicles.text(row, "robot").unwrap_or_default();
-            let floor = Floor { plan: plan.clone(), network, settings, told };
+            let floor = Floor { plan: plan.clone(), network, driving, told };
             Ok(OfRobot { robot, floor, unfit })
         };
         vehicles.rows().map(of_robot).collect()

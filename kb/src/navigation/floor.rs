@@ -2,11 +2,12 @@
 
 use adit_planners::floor_plan::{Disc, FloorPlan, Network};
 use adit_planners::geometry::Point;
-use adit_planners::navigation::{Building, Settings};
+use adit_planners::navigation::Building;
 
 use super::told::Told;
 use crate::error::{Code, Error, Result};
 use crate::plan::course;
+use crate::site::driving::Driving;
 use crate::words::suggest::did_you_mean;
 
 /// A floor plan, the network of places for a robot, and what the robot goes by.
@@ -14,8 +15,8 @@ use crate::words::suggest::did_you_mean;
 pub struct Floor {
     pub plan: FloorPlan,
     pub network: Network,
-    /// Tolerances and other figures.
-    pub settings: Settings,
+    /// How it drives, and what it senses.
+    pub driving: Driving,
     /// What the world says of doorways and regions.
     pub told: Told,
 }
@@ -27,8 +28,10 @@ impl Floor {
 
     /// The building as a robot drives in it: its ways leave room beside the robot, where there is a way with room.
     pub fn building(&self) -> Building {
-        let disc =
-            Disc { margin: self.network.disc.margin.max(self.settings.detour_room_m), ..self.network.disc };
+        let disc = Disc {
+            margin: self.network.disc.margin.max(self.driving.navigation.detour_room_m),
+            ..self.network.disc
+        };
         let with_room = Network::new(&self.plan, disc).unwrap_or_else(|_| self.network.clone());
         Building::new(&self.plan, with_room)
     }

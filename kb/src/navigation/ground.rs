@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use adit_db::room::Room;
 use adit_planners::floor_plan::{Disc, FloorPlan, Network};
 use adit_planners::geometry::{Point, Rect, Segment, polygon};
-use adit_planners::navigation::{Building, Drivable, Outfit, Settings, Stretch};
+use adit_planners::navigation::{Building, Drivable, Outfit, Stretch};
 use adit_planners::routes::RoomIndex;
 use adit_planners::simulator::{Shape, Shapes};
 
@@ -13,6 +13,8 @@ use crate::answer::{Answer, Status, pick};
 use crate::error::{Code, Error, Result};
 use crate::graph::{Building as Spaces, is_weighed};
 use crate::navigation::body::{Outline, Used};
+use crate::plan::figures;
+use crate::site::driving::Driving;
 use crate::state::State;
 
 /// How fast a robot is whose table does not say it, metres a second.
@@ -32,7 +34,8 @@ pub struct Ground {
     pub walls: Vec<Segment>,
     /// Where spaces go over into each other.
     pub doorways: Vec<Segment>,
-    pub settings: Settings,
+    /// How it drives, and what it senses.
+    pub driving: Driving,
     /// Hardness of changes of shape, by shapes.
     changes: BTreeMap<(usize, usize), f64>,
 }
@@ -76,7 +79,7 @@ impl Ground {
             buildings: Vec::new(),
             plan,
             walls,
-            settings: Settings::default(),
+            driving: figures::driving(&asked, Driving::of_rooms())?,
             changes: BTreeMap::new(),
         };
         for row in rows.rows() {
@@ -91,7 +94,7 @@ impl Ground {
             let message = format!("{} has rooms in no state: there is nowhere to drive", ground.robot);
             return Err(Error::said(Code::SimulateImpossible, message, None));
         }
-        ground.settings.speed_m_s =
+        ground.driving.navigation.speed_m_s =
             ground.shapes.all.iter().map(|shape| shape.greatest_speed_m_s).fold(0.0, f64::max);
         let rows = asked.objects("CHANGES");
         for row in rows.rows() {
@@ -171,9 +174,7 @@ impl Ground {
     pub fn stage(&self, shape: usize) -> (Drivable<'_>, Outfit) {
         let on =
             Drivable { walls: &self.walls, shapes: Some(&self.shapes), shape, buildings: &self.buildings };
-        let mut outfit = Outfit { navigation: self.settings, ..Outfit::default() };
-        outfit.robot.radius_m = self.shapes.all[shape].radius_m;
-        (on, outfit)
+        (on, self.driving.outfit(self.shapes.all[shape].radius_m))
     }
 
     /// The radius of the smallest shape, metres.

@@ -3,8 +3,8 @@
 use adit_db::learned::Learned as Record;
 use adit_planners::floor_plan::Network;
 use adit_planners::geometry::{Point, Segment};
+use adit_planners::navigation::Ending;
 use adit_planners::navigation::learn::{Exploration, Learned, score};
-use adit_planners::navigation::{Ending, Outfit};
 use adit_planners::simulator::Film;
 use adit_planners::world::Place;
 use serde::Serialize;
@@ -72,8 +72,7 @@ pub fn explore(
     exploration: &Exploration,
     film: Option<&mut Option<Film>>,
 ) -> Result<(Row, Record)> {
-    let mut outfit = Outfit { navigation: floor.settings, ..Outfit::default() };
-    outfit.robot.radius_m = floor.network.disc.radius;
+    let outfit = floor.driving.outfit(floor.network.disc.radius);
     let explored = exploration
         .run(&floor.plan, &outfit, guide, |_| {}, film)
         .map_err(Error::of(Code::SimulateImpossible))?;
@@ -146,5 +145,5 @@ pub fn known(stored: &Record, truth: &Floor) -> Result<Floor> {
     };
     let plan = learned.plan(&stored.learned).map_err(|error| Error::all(error.problems))?;
     let network = Network::new(&plan, truth.network.disc).map_err(|error| Error::all(error.problems))?;
-    Ok(Floor { plan, network, settings: truth.settings, told: Told::default() })
+    Ok(Floor { plan, network, driving: truth.driving, told: Told::default() })
 }

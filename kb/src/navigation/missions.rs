@@ -205,8 +205,7 @@ impl<'f> Stage<'f> {
     /// # Arguments
     /// `start_sigma_m` is how sure it is of where it begins: the model is a little off.
     pub fn learned(truth: &'f Floor, known: &'f Floor, start_sigma_m: f64, judges: &Judges) -> Result<Self> {
-        let mut outfit = Outfit { navigation: truth.settings, start_sigma_m, ..Outfit::default() };
-        outfit.robot.radius_m = truth.network.disc.radius;
+        let outfit = Outfit { start_sigma_m, ..truth.driving.outfit(truth.network.disc.radius) };
         let walls = truth.plan.barriers().into_iter().map(Segment::from).collect();
         let is_open = judges.ask(|judge| {
             let mut weigh = |way| judge.weigh(&WayFacts { way, is_cut: false, times_blocked: 0 });

@@ -5,7 +5,6 @@ use std::path::Path;
 
 use adit_planners::floor_plan::{Disc, FloorPlan, Network, read_floor_plan};
 use adit_planners::geometry::Point;
-use adit_planners::navigation::Settings;
 use adit_planners::read::{Code, Fields, Located, MapSettings, Overlay, Problem, Unknown, read_map};
 use adit_planners::world::{Bridge, NamedDoor, Obstacle, Property, Shape, World};
 use toml::de::DeValue;
@@ -13,11 +12,21 @@ use toml::de::DeValue;
 use super::floor::Floor;
 use super::told::{self, Told};
 use crate::error::{Error, Result};
-use crate::plan::figures::figures;
+use crate::site::driving::{self, Driving};
 use crate::site::{Site, not_negative};
 use crate::words::suggest::did_you_mean;
 
-const KEYS: [&str; 8] = ["file", "map", "unknown", "speck_area", "open", "closed", "robot", "navigation"];
+const KEYS: [&str; 9] = [
+    "file",
+    "map",
+    "unknown",
+    "speck_area",
+    "open",
+    "closed",
+    "robot",
+    driving::NAVIGATION,
+    driving::SENSORS,
+];
 /// What goes with a map alone.
 const OF_MAPS: [&str; 4] = ["unknown", "speck_area", "open", "closed"];
 /// What a world lays over its map.
@@ -36,7 +45,8 @@ pub fn read(
 ) -> Result<Option<Floor>> {
     fields.refuse_unknown(&KEYS, problems);
     let robot = robot(fields, problems);
-    let settings = settings(fields, problems);
+    let titles = ["[floor_plan.navigation]", "[floor_plan.sensors]"];
+    let driving = Driving::of_floor().read(fields, titles, problems);
     let said = told::read(world, problems);
     let source = source(world, fields, problems);
     let (Some(source), Some(robot), true) = (source, robot, problems.is_empty()) else { return Ok(None) };
@@ -59,7 +69,7 @@ pub fn read(
         Error::all(errors.problems.into_iter().map(|problem| here(problem).with_help(help)))
     })?;
     let told = Told::new(&said, &network, world, problems);
-    Ok(problems.is_empty().then_some(Floor { plan, network, settings, told }))
+    Ok(problems.is_empty().then_some(Floor { plan, network, driving, told }))
 }
 
 enum Source {
@@ -241,13 +251,4 @@ fn robot(fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> Option<Robot> 
     let height = robot.get("height").and_then(|_| robot.positive("height", problems));
     let (Located { value: radius, span }, margin) = (radius?, margin?);
     Some(Robot { disc: Disc { radius, margin }, height: height.map(|height| height.value), span })
-}
-
-/// `[floor_plan.navigation]`: figures of the navigator by name.
-fn settings(fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) -> Settings {
-    let mut settings = Settings::default();
-    if let Some(table) = fields.table("navigation", "[floor_plan.navigation]", problems) {
-        figures(&table, Settings::FIGURES, &mut settings, problems);
-    }
-    settings
 }

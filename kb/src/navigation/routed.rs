@@ -66,7 +66,7 @@ impl Site<'_> {
             return Ok(lean.and_then(|lean| self.ground.stretches(&lean)));
         };
         // farther from what it met, where that costs little
-        let settings = &self.ground.settings;
+        let settings = &self.ground.driving.navigation;
         for room_m in [settings.detour_room_m, settings.detour_clearance_m] {
             let roomy = self.asked([from, to], shape, met, room_m)?;
             if let Some(roomy) =
@@ -115,7 +115,7 @@ impl Site<'_> {
             if answer.cost.is_none() { ask(&Errand { start_state: None, ..errand })? } else { answer };
         let ends_there = |answer: &Answer| {
             answer.waypoints.last().is_some_and(|last| {
-                Point::new(last.x, last.y).distance(to) <= self.ground.settings.goal_tolerance_m
+                Point::new(last.x, last.y).distance(to) <= self.ground.driving.navigation.goal_tolerance_m
             })
         };
         Ok(Some(answer).filter(|answer| answer.cost.is_some() && ends_there(answer)))
@@ -137,7 +137,7 @@ impl Site<'_> {
 
     /// How much thicker than it was seen something is taken to be, metres: twice as much each time that it was in the way again.
     fn thickness(&self, before: &[Met], met: &Met) -> f64 {
-        let settings = &self.ground.settings;
+        let settings = &self.ground.driving.navigation;
         let again = before.iter().filter(|other| other.at.distance(met.at) <= settings.same_spot_m).count();
         (settings.squeeze_m * 2f64.powi(again as i32)).min(settings.detour_room_m)
     }
@@ -155,12 +155,12 @@ impl Site<'_> {
                 self.laid += 1;
                 let name = format!("met by {} in mission {mission} at {begun}, {}", ground.robot, self.laid);
                 let lay = laid(name.clone(), thing);
-                let until = Some(format!("{:.0}s", ground.settings.reported_s));
+                let until = Some(format!("{:.0}s", ground.driving.navigation.reported_s));
                 edits.push(Edit::Lay(Lay { until, ..lay }));
                 let middle = Rect::around(thing.iter().copied()).centre();
                 self.said.push(format!(
                     "laid over the map for {}: something at {:.1}, {:.1}, {name}",
-                    lasting(ground.settings.reported_s),
+                    lasting(ground.driving.navigation.reported_s),
                     middle.x,
                     middle.y
                 ));
@@ -244,7 +244,7 @@ fn asked(
 ) -> Result<Answer> {
     let start = named_point(from);
     let state = live.fork().within(Some(OFF_M))?;
-    state.route_after(edits, errand, (&start, &[goal.to_owned()]), Some(robot))
+    state.route_after(edits, errand, (&start, goal), robot)
 }
 
 /// As ends of routes name it.

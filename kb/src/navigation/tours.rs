@@ -1,6 +1,6 @@
 //! How well a robot knows where it is: long drives with the walls known, and with a model that is built on the way.
 
-use adit_planners::navigation::{Building, Outfit, Tour, Wrong, stops};
+use adit_planners::navigation::{Building, Tour, Wrong, stops};
 use adit_planners::pose::Pose;
 use rayon::prelude::*;
 use serde::Serialize;
@@ -56,8 +56,7 @@ pub fn drive(floor: &Floor, judges: &Judges, far_m: f64, seeds: u64, first: u64)
         };
         let stops = [&stops[1..], &stops[..1]].concat();
         let tour = Tour { start: Pose { at: start, heading: 0.0 }, stops, far_m, seed };
-        let mut outfit = Outfit { navigation: floor.settings, ..Outfit::default() };
-        outfit.robot.radius_m = radius;
+        let outfit = floor.driving.outfit(radius);
         let of_robot = if is_known { &known } else { &unknown };
         let drive = |judge: &mut RuleJudge| {
             tour.run(&known.walls, of_robot, &outfit, judge).map_err(Error::of(Code::SimulateImpossible))

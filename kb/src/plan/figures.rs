@@ -1,46 +1,11 @@
-//! Figures of a planner that users may change: read from a map's file, kept in a table of the site, read from it.
+//! Figures of a planner that users may change, read from the table of the site that keeps them.
 
-use std::path::Path;
-
-use adit_db::Cell;
 use adit_planners::figures::Figure;
-use adit_planners::read::{Code, Fields, Problem};
+use adit_planners::simulator;
 
-use super::course::ObjectsOf;
-use crate::error::Result;
-use crate::site::tables::TableFile;
-
-const COLUMNS: [(&str, &str); 4] =
-    [("figure", "TEXT"), ("value", "REAL"), ("unit", "TEXT"), ("meaning", "TEXT")];
-
-/// Reads those that a table of a map's file names.
-pub fn figures<S>(
-    table: &Fields<'_, '_>,
-    figures: &[Figure<S>],
-    settings: &mut S,
-    problems: &mut Vec<Problem>,
-) {
-    table.refuse_unknown(&figures.iter().map(|figure| figure.name).collect::<Vec<_>>(), problems);
-    for figure in figures.iter().filter(|figure| table.get(figure.name).is_some()) {
-        let Some(number) = table.number(figure.name, problems) else { continue };
-        match figure.range.refuses(number.value) {
-            None => (figure.set)(settings, number.value),
-            Some(must) => {
-                let message = format!("`{}` is {} and {must}", figure.name, number.value);
-                problems.push(table.text.problem(Code::NotPositive, &number.span, message));
-            }
-        }
-    }
-}
-
-/// The table that keeps them.
-pub fn table<S>(file: &Path, name: &str, figures: &[Figure<S>], settings: &S) -> TableFile {
-    let row = |figure: &Figure<S>| {
-        let [name, unit, meaning] = [figure.name, figure.unit, figure.meaning].map(Cell::from);
-        vec![name, Cell::Real((figure.of)(settings)), unit, meaning]
-    };
-    TableFile::of_map(file, name, (&COLUMNS, 1), figures.iter().map(row).collect())
-}
+use super::course::{Asked, ObjectsOf};
+use crate::error::{Code, Error, Result};
+use crate::site::driving::Driving;
 
 /// Takes those that the table has; a row that was taken away leaves the default.
 pub fn read<S>(table: ObjectsOf<'_>, figures: &[Figure<S>], settings: &mut S) -> Result<()> {
@@ -58,4 +23,14 @@ pub fn read<S>(table: ObjectsOf<'_>, figures: &[Figure<S>], settings: &mut S) ->
         (figure.set)(settings, value);
     }
     Ok(())
+}
+
+/// How a robot drives by the tables of the site; as it was where there are none.
+pub fn driving(asked: &Asked<'_>, mut driving: Driving) -> Result<Driving> {
+    read(asked.objects("NAVIGATION"), &driving.navigator(), &mut driving.navigation)?;
+    read(asked.objects("SENSORS"), simulator::Settings::FIGURES, &mut driving.sensors)?;
+    match driving.too_many_at_once() {
+        Some(wrong) => Err(Error::said(Code::CourseTable, wrong, None)),
+        None => Ok(driving),
+    }
 }

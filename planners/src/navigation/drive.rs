@@ -115,9 +115,13 @@ impl<J: Judge, W: FnMut(Entry)> Drive<'_, J, W> {
     }
 
     fn look(&mut self) {
-        for _ in 0..=self.navigator.scan_readings() {
+        for _ in 0..self.navigator.scan_readings() {
             self.step();
+            if self.navigator.is_scan_complete() {
+                break;
+            }
         }
+        self.step();
     }
 
     fn step(&mut self) -> Option<Ending> {

@@ -64,10 +64,20 @@ impl Memory {
     }
 
     /// Surfaces of obstacles of at least a confidence.
-    pub fn obstacles(&self, model: &LocalModel, confidence: u8, settings: &Settings) -> Vec<Segment> {
+    ///
+    /// # Arguments
+    /// `spacing` is the angle between beams, radians: what is seen to end may go on between two of them.
+    pub fn obstacles(
+        &self,
+        (model, spacing): (&LocalModel, f64),
+        confidence: u8,
+        settings: &Settings,
+    ) -> Vec<Segment> {
+        let at = model.estimate().pose.at;
         let seen = obstacles(model, settings).filter(|segment| segment.confidence >= confidence);
         let kept = self.kept.iter().filter(|(_, known)| *known >= confidence);
-        seen.map(|segment| segment.line).chain(kept.map(|(line, _)| *line)).collect()
+        let seen = seen.map(|segment| lengthened(segment, at, spacing, settings.corner_m));
+        seen.chain(kept.map(|(line, _)| *line)).collect()
     }
 }
 
@@ -76,6 +86,22 @@ fn obstacles<'m>(model: &'m LocalModel, settings: &Settings) -> impl Iterator<It
     let firm = settings.firm_confidence;
     let unknown = model.segments().iter().filter(|segment| segment.source != Source::RECALLED);
     unknown.filter(move |segment| !is_moving(model, segment, firm))
+}
+
+/// A surface as far as it may go on unseen where it does not join another one, up to so many metres.
+fn lengthened(segment: &ModelSegment, from: Point, spacing: f64, most_m: f64) -> Segment {
+    let line = segment.line;
+    let along = line.direction();
+    let beyond = |end: Point| {
+        let beam = end - from;
+        let range_m = beam.length();
+        // a beam that grazes a surface leaves more of it unseen
+        let across = (beam.cross(along) / range_m.max(f64::MIN_POSITIVE)).abs().max(spacing);
+        (range_m * spacing / across).min(most_m)
+    };
+    let [a, b] = [line.a, line.b].map(beyond);
+    let more = |metres: f64, is_joined: bool| along * if is_joined { 0.0 } else { metres };
+    Segment::new(line.a - more(a, segment.joins[0].is_some()), line.b + more(b, segment.joins[1].is_some()))
 }
 
 pub(super) fn moving<'m>(model: &'m LocalModel, settings: &Settings) -> impl Iterator<Item = Segment> + 'm {

@@ -47,6 +47,18 @@ impl Default for Outfit {
 }
 
 impl Outfit {
+    /// A robot that is as good as its navigator thinks, and whose navigator is set so; drifts alone are not known to it.
+    pub fn of(robot: simulator::Settings, navigation: Settings) -> Self {
+        let model = local_model::Settings {
+            sonar_range_m: robot.sonar_range_m,
+            range_noise: robot.range_noise,
+            distance_noise: robot.distance_noise,
+            heading_noise: robot.heading_noise,
+            ..local_model::Settings::default()
+        };
+        Self { robot, model, navigation, ..Self::default() }
+    }
+
     /// Where a robot thinks that it is when it is switched on.
     pub(super) fn estimate(&self, start: Pose) -> Estimate {
         Estimate::new(start, self.start_sigma_m, 0.5_f64.to_radians())

@@ -4,6 +4,7 @@
 
 mod acting;
 mod locating;
+mod loose;
 mod planning;
 mod route;
 mod sensing;
@@ -88,6 +89,8 @@ pub struct Navigator<'b> {
     then_m: Option<f64>,
     part: Vec<Reading>,
     readings_standing: usize,
+    /// Since when the robot stands, seconds.
+    standing_s: f64,
     /// Times that the robot withdrew since it last waited.
     back_offs: u32,
     /// When the goal was given, seconds.
@@ -96,6 +99,10 @@ pub struct Navigator<'b> {
     scans: u32,
     /// What was touched, and when; the model may have it elsewhere.
     felt: Vec<(f64, Segment)>,
+    /// When the model was updated last, seconds.
+    updated_s: f64,
+    /// Short surfaces through echoes that no surface of the model explains, and the readings since each was heard.
+    loose: Vec<(usize, Segment)>,
     detours: Option<Detours>,
     /// What was seen free, in learn mode.
     seen: Option<Seen>,
@@ -197,10 +204,13 @@ impl<'b> Navigator<'b> {
             then_m: None,
             part: Vec::new(),
             readings_standing: 0,
+            standing_s: 0.0,
             back_offs: 0,
             begun_s: 0.0,
             scans: 0,
             felt: Vec::new(),
+            updated_s: f64::NEG_INFINITY,
+            loose: Vec::new(),
             detours: None,
             seen: None,
             events: Vec::new(),
@@ -341,8 +351,9 @@ impl<'b> Navigator<'b> {
         ending
     }
 
-    fn is_scan_complete(&self) -> bool {
+    pub(super) fn is_scan_complete(&self) -> bool {
         self.readings_standing >= self.scan_readings()
+            && self.time_s() - self.standing_s >= self.settings.look_s
     }
 
     /// Readings that make a whole scan: all around, and no fewer than the figure for a body that measures into few directions.

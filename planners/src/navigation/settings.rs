@@ -17,12 +17,15 @@ settings! {
             speed_m_s: f64 = 0.5, "speed", "m/s", Positive, "How fast the robot goes.";
             stride_to_room: f64 = 15.0, "stride_to_room", "", Positive, "On a site's route it goes no farther without a look around than so many times the room beside it.";
             scan_readings: usize = 120, "scan_readings", "", Count, "Readings of the sonar that make a whole scan.";
+            look_s: f64 = 2.0, "look", "s", NotNegative, "A look around takes so long at the least, however fast the sensors are: things move meanwhile.";
+            pace_s: f64 = 1.0, "pace", "s", NotNegative, "What is seen is taken into the model no more often, however fast the sensors are: what moves is told by that it has.";
             part_readings: usize = 40, "part_readings", "", Count, "Readings after which the model is updated on the way.";
             echoes: usize = 2, "echoes", "", Count, "So many raw echoes are in the way before what they hit is: one may be false.";
             falling_m: f64 = 0.05, "falling", "m", NotNegative, "The goal point is farther away than it was from so much on.";
             detour_clearance_m: f64 = 0.05, "detour_clearance", "m", Room, "What a detour keeps free on either side of the robot at the least.";
             detour_room_m: f64 = 0.10, "room", "m", Room, "What a detour keeps free where there is room.";
             room_worth: f64 = 1.3, "room_worth", "", Positive, "A detour with room may be longer than one without by this factor.";
+            corner_m: f64 = 0.05, "corner", "m", Room, "A surface that was seen to end may go on unseen, between two beams, for so much at the most.";
             squeeze_m: f64 = 0.025, "squeeze", "m", Room, "What is kept free on either side where there is no other way: a little more than on the highway.";
             most_squeezes: u32 = 4, "most_squeezes", "", Times, "So many times on a mission the robot squeezes through.";
             detour_reach_m: f64 = 2.0, "detour_reach", "m", Positive, "A detour leaves the rectangle about its ends by at most so much.";

@@ -1,57 +1,44 @@
-//! How good the simulated wheels and the simulated sonar are.
+//! What a simulated robot senses, and how good its wheels are.
 
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Settings {
-    pub radius_m: f64,
-    pub greatest_speed_m_s: f64,
-    /// How fast it turns, radians a second.
-    pub turning_speed: f64,
-    /// Standard deviation of the distance that the wheels count, as a share of it; one error for each command.
-    pub distance_noise: f64,
-    /// Standard deviation of the heading, radians after one metre; it grows with the root of the metres.
-    pub heading_noise: f64,
-    /// By how much the heading drifts to the left unnoticed, radians a metre.
-    pub heading_bias: f64,
-    /// Into how many directions it measures, all around.
-    pub readings_a_turn: u16,
-    /// In how many of them at once, one beside the other: 1 for a sonar that turns, all of them for a lidar.
-    pub readings_at_once: u16,
-    /// Seconds from these readings to the next. Sound needs 0.047 s for 8 m and back.
-    pub reading_period_s: f64,
-    /// Whether a skirt feels what the robot touches.
-    pub has_skirt: bool,
-    /// How far away something is measured, metres.
-    pub sonar_range_m: f64,
-    /// Standard deviation of a reading, as a share of it.
-    pub range_noise: f64,
-    /// Share of the readings without an echo where there is one.
-    pub missed: f64,
-    /// Share of the readings with an echo from anywhere.
-    pub false_echoes: f64,
-}
+use crate::figures::settings;
 
-impl Default for Settings {
-    fn default() -> Self {
-        Self {
-            radius_m: 0.25,
-            greatest_speed_m_s: 0.5,
-            turning_speed: 90.0_f64.to_radians(),
-            distance_noise: 0.02,
-            heading_noise: 1.0_f64.to_radians(),
-            heading_bias: 0.05_f64.to_radians(),
-            readings_a_turn: 120,
-            readings_at_once: 1,
-            reading_period_s: 0.05,
-            has_skirt: true,
-            sonar_range_m: 8.0,
-            range_noise: 0.01,
-            missed: 0.02,
-            false_echoes: 0.01,
+settings! {
+    /// Figures of a simulated robot. One error of the wheels is drawn for each command, one of each reading.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Settings {
+        others {
+            radius_m: f64 = 0.25;
+            greatest_speed_m_s: f64 = 0.5;
+        }
+        figures {
+            readings_a_turn: u16 = 120, "directions", "", Count, "Into how many directions it measures, all around.";
+            readings_at_once: u16 = 1, "at_once", "", Count, "In how many of them at once, one beside the other: 1 for a sonar that turns, all of them for a lidar or a ring.";
+            reading_period_s: f64 = 0.05, "period", "s", Grain, "Time from these readings to the next; sound needs 0.047 s for 8 m and back.";
+            sonar_range_m: f64 = 8.0, "range", "m", Positive, "How far away something is measured.";
+            range_noise: f64 = 0.01, "noise", "", Share, "Standard deviation of a reading, as a share of it.";
+            missed: f64 = 0.02, "missed", "", Share, "Share of the readings without an echo where there is one.";
+            false_echoes: f64 = 0.01, "false_echoes", "", Share, "Share of the readings with an echo from anywhere.";
+            has_skirt: bool = true, "skirt", "", YesOrNo, "Whether a skirt feels what the robot touches.";
+            turning_speed: degrees = 90.0, "turning_speed", "°/s", Positive, "How fast it turns.";
+            distance_noise: f64 = 0.02, "distance_noise", "", Share, "Standard deviation of the distance that the wheels count, as a share of it.";
+            heading_noise: degrees = 1.0, "heading_noise", "°/√m", NotNegative, "Standard deviation of the heading after one metre; it grows with the root of the metres.";
+            heading_bias: degrees = 0.05, "heading_bias", "°/m", NotNegative, "By how much the heading drifts to the left unnoticed.";
         }
     }
 }
 
 impl Settings {
+    /// A robot that measures all around at once, ten times a second.
+    pub fn lidar() -> Self {
+        Self {
+            readings_a_turn: 240,
+            readings_at_once: 240,
+            reading_period_s: 0.1,
+            sonar_range_m: 12.0,
+            ..Self::default()
+        }
+    }
+
     /// A robot whose wheels and sonar make no errors.
     pub fn exact() -> Self {
         Self {

@@ -10,6 +10,7 @@ mod maps;
 mod on_rooms;
 mod position;
 mod same_as_table;
+mod sensors;
 mod told;
 mod why;
 

@@ -1,10 +1,12 @@
 //! What the robot senses, taken into the model.
 
+use std::f64::consts::TAU;
+
 use super::{Navigator, TRACK_M, TRACK_POINTS};
 use crate::body::{Body, Silence};
 use crate::geometry::Segment;
 use crate::navigation::event::Happening;
-use crate::navigation::judge::{Judge, State};
+use crate::navigation::judge::{Judge, Mode, State};
 use crate::navigation::known::moving;
 
 impl Navigator<'_> {
@@ -16,6 +18,9 @@ impl Navigator<'_> {
         let is_held = !sensed.is_busy && self.course.is_some_and(|course| course.is_held(&sensed));
         let touch = sensed.contact.filter(|_| before.is_none() || is_held);
         let (time_s, shape) = (sensed.time_s, sensed.shape);
+        if sensed.is_busy || self.readings_standing == 0 {
+            self.standing_s = time_s;
+        }
         self.readings_standing =
             if sensed.is_busy { 0 } else { self.readings_standing + sensed.readings.len() };
         self.part.append(&mut sensed.readings);
@@ -35,7 +40,10 @@ impl Navigator<'_> {
         }
         let is_standing = self.readings_standing > 0;
         let most = if is_standing { self.scan_readings() } else { self.part_readings() };
-        if self.part.len() >= most {
+        if self.part.len() >= most && time_s - self.updated_s >= self.settings.pace_s {
+            self.updated_s = time_s;
+            // of more than a turn the latest counts
+            self.part.drain(..self.part.len().saturating_sub(self.scan_readings()));
             self.update(judge);
         }
         Ok(())
@@ -59,7 +67,11 @@ impl Navigator<'_> {
         self.model.recall(walls, |facts| judge.segment(facts));
         let update = self.model.update(&part, self.time_s(), |facts| judge.segment(facts));
         self.memory.note(&self.model, &self.building.walls, &self.settings);
+        self.forget_loose(part.len());
         self.gather();
+        if self.mode != Mode::Learn {
+            self.keep_loose(&part);
+        }
         if let (Some(seen), Some(sensed)) = (&mut self.seen, &self.sensed) {
             let pose = self.model.estimate().pose;
             seen.look(&part, &pose, &sensed.odometry, self.radius_m, &self.barriers);
@@ -89,8 +101,11 @@ impl Navigator<'_> {
     }
 
     pub(super) fn obstacles(&self, confidence: u8) -> Vec<Segment> {
-        let mut obstacles = self.memory.obstacles(&self.model, confidence, &self.settings);
+        // what a robot learns is what it sees
+        let spacing = if self.mode == Mode::Learn { 0.0 } else { TAU / self.directions.max(1) as f64 };
+        let mut obstacles = self.memory.obstacles((&self.model, spacing), confidence, &self.settings);
         obstacles.extend(self.felt.iter().map(|(_, surface)| *surface));
+        obstacles.extend(self.loose.iter().map(|(_, surface)| *surface));
         obstacles
     }
 }

@@ -1,0 +1,60 @@
+//! Echoes of which no surface was made: they are too few, or what they hit is too short. Something stands there all the same.
+
+use super::Navigator;
+use crate::body::Reading;
+use crate::geometry::{Point, Segment};
+
+/// So near to a surface of the model an echo is one of that, metres, and standard deviations of its range.
+const OF_SURFACE_M: f64 = 0.03;
+const OF_SURFACE_SIGMAS: f64 = 3.0;
+
+/// Echoes side by side that are no farther apart come from one thing, metres.
+const SAME_THING_M: f64 = 0.2;
+
+/// Echoes from farther away wait until the robot is nearer, metres.
+const NEAR_M: f64 = 2.5;
+
+impl Navigator<'_> {
+    /// Takes note of the echoes of the last turn that no surface explains.
+    pub(super) fn keep_loose(&mut self, part: &[Reading]) {
+        let at = self.pose().at;
+        let reach = NEAR_M + SAME_THING_M;
+        let known: Vec<Segment> = self.barriers.iter().chain(&self.moving).copied().collect();
+        let near: Vec<Segment> = known.into_iter().filter(|line| line.distance(at) <= reach).collect();
+        let echoes: Vec<Option<Point>> = part.iter().map(|reading| self.loose_echo(reading, &near)).collect();
+        let is_apart = |a: &Option<Point>, b: &Option<Point>| match (a, b) {
+            (Some(a), Some(b)) => a.distance(*b) > SAME_THING_M,
+            _ => true,
+        };
+        for group in echoes.chunk_by(|a, b| !is_apart(a, b)) {
+            if group.len() >= self.settings.echoes
+                && let (Some(first), Some(last)) = (group[0], group[group.len() - 1])
+            {
+                let surface = Segment::new(first, last);
+                self.loose.push((0, surface));
+                self.barriers.push(surface);
+            }
+        }
+    }
+
+    /// Forgets those that were heard a whole turn ago: what is there is heard again.
+    pub(super) fn forget_loose(&mut self, readings: usize) {
+        let turn = self.scan_readings();
+        for (since, _) in &mut self.loose {
+            *since += readings;
+        }
+        self.loose.retain(|(since, _)| *since < turn);
+    }
+
+    /// Where an echo comes from that is near, and of no surface.
+    fn loose_echo(&self, reading: &Reading, near: &[Segment]) -> Option<Point> {
+        let range_m = reading.range_m.filter(|range| *range <= NEAR_M)?;
+        let of = self.model.settings();
+        let from = self.pose().then(&self.odometry().to(&reading.odometry));
+        let at = from.at + from.direction(reading.bearing) * range_m;
+        let sigma_m =
+            (of.range_noise * range_m).hypot(of.range_noise_m).hypot(self.model.estimate().sigma_m());
+        let reach = OF_SURFACE_M + OF_SURFACE_SIGMAS * sigma_m;
+        near.iter().all(|line| line.distance(at) > reach).then_some(at)
+    }
+}
