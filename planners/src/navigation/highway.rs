@@ -64,6 +64,8 @@ fn hit(from: Point, to: Point, reach: f64, barrier: &Segment) -> Option<f64> {
     if now < reach {
         return (nearest < now - SLIDE_M).then_some(0.0);
     }
+    // what is only just far enough away may be slid along, too
+    let reach = reach.min(now - SLIDE_M);
     (nearest < reach).then(|| first_within(from, to, reach, barrier))
 }
 

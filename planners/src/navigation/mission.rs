@@ -12,6 +12,9 @@ use crate::local_model::{self, Estimate};
 use crate::pose::{Pose, wrapped};
 use crate::simulator::{self, Film, Frame, Obstacle, Shapes, SimulationError, Simulator};
 
+/// Into so many directions a robot measures for which the figures of the model are meant.
+const SONAR_DIRECTIONS: u16 = 120;
+
 /// A robot's start, its goal, and what nobody told it of.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mission {
@@ -49,12 +52,16 @@ impl Default for Outfit {
 impl Outfit {
     /// A robot that is as good as its navigator thinks, and whose navigator is set so; drifts alone are not known to it.
     pub fn of(robot: simulator::Settings, navigation: Settings) -> Self {
+        let usual = local_model::Settings::default();
+        // beams that lie closer together are not joined across as wide a gap
+        let closer = f64::from(SONAR_DIRECTIONS) / f64::from(robot.readings_a_turn);
         let model = local_model::Settings {
+            largest_gap_m: usual.largest_gap_m * closer.min(1.0),
             sonar_range_m: robot.sonar_range_m,
             range_noise: robot.range_noise,
             distance_noise: robot.distance_noise,
             heading_noise: robot.heading_noise,
-            ..local_model::Settings::default()
+            ..usual
         };
         Self { robot, model, navigation, ..Self::default() }
     }

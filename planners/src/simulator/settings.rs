@@ -35,6 +35,7 @@ impl Settings {
             readings_at_once: 240,
             reading_period_s: 0.1,
             sonar_range_m: 12.0,
+            range_noise: 0.005,
             ..Self::default()
         }
     }
