@@ -118,6 +118,22 @@ pub async fn together(connection: &mut SqliteConnection, id: i64) -> Result<Vec<
     query.bind(id).fetch_all(connection).await?.iter().map(edit).collect()
 }
 
+/// Edits of what one table name stands for, of one key where one is said; the newest first.
+pub async fn about(connection: &mut SqliteConnection, table: &str, key: Option<&str>) -> Result<Vec<Edit>> {
+    let query = sqlx::query(
+        "SELECT id, at, who, why, table_name, key, column_name, old, new, undone, coalesce(change_set, id) FROM history
+         WHERE table_name = ?1 AND (?2 IS NULL OR key = ?2) ORDER BY id DESC",
+    );
+    query.bind(table).bind(key).fetch_all(connection).await?.iter().map(edit).collect()
+}
+
+/// Says of one edit which other one took it back.
+pub(crate) async fn mark_undone(connection: &mut SqliteConnection, id: i64, by: i64) -> Result<()> {
+    let mark = sqlx::query("UPDATE history SET undone = ? WHERE id = ?").bind(by).bind(id);
+    mark.execute(connection).await?;
+    Ok(())
+}
+
 /// Joins what was written since the last transaction to a change set.
 pub(crate) async fn join(connection: &mut SqliteConnection) -> Result<()> {
     let sql = "UPDATE history SET change_set = (SELECT min(id) FROM history WHERE change_set IS NULL)
@@ -136,6 +152,33 @@ pub async fn undoable(connection: &mut SqliteConnection, most: u32) -> Result<Ve
 }
 
 impl Tx<'_> {
+    /// Writes down the edit of something that is no row, as a file is, under the name of its kind in place of a table's; its
+    /// number.
+    pub fn record(
+        &mut self,
+        (kind, name, part): (&str, &str, Option<&str>),
+        (old, new): (&Cell, &Cell),
+        author: &Author,
+    ) -> Result<i64> {
+        let entry = Entry { table: kind, key: name, column: part, old, new };
+        self.run(async |connection| record(connection, author, &entry).await)
+    }
+
+    /// Says of one edit which other one took it back.
+    pub fn mark_undone(&mut self, id: i64, by: i64) -> Result<()> {
+        self.run(async |connection| mark_undone(connection, id, by).await)
+    }
+
+    /// One edit.
+    pub fn entry(&mut self, id: i64) -> Result<Option<Edit>> {
+        self.run(async |connection| entry(connection, id).await)
+    }
+
+    /// Edits of what one table name stands for, of one key where one is said; the newest first.
+    pub fn history_of(&mut self, table: &str, key: Option<&str>) -> Result<Vec<Edit>> {
+        self.run(async |connection| about(connection, table, key).await)
+    }
+
     /// Edits, the newest first; at most `most`.
     pub fn history(&mut self, most: u32) -> Result<Vec<Edit>> {
         self.run(async |connection| read(connection, most).await)

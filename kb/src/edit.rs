@@ -16,6 +16,7 @@ use crate::site::sheet::Sheet;
 mod cells;
 mod close;
 mod errand;
+mod file;
 mod lay;
 pub(crate) mod place;
 pub(crate) mod react;
@@ -30,10 +31,12 @@ pub(crate) use cells::TUNABLE;
 use cells::{cell, cell_of, columns, explain, is_equal, row};
 pub use close::Close;
 pub use errand::Errand;
+pub use file::Write;
 pub use lay::{Lay, Thing};
 pub use tell::Tell;
 pub(crate) use tuning::known as known_tuning;
-pub(crate) use words::{change, entry};
+use words::change;
+pub(crate) use words::{changed, entry, subject};
 
 /// What is to be edited. Values are as people write them; the column says what they must be.
 #[derive(Clone, Debug, PartialEq)]
@@ -65,6 +68,8 @@ pub enum Edit {
     UnsetInTuning(String, [String; 3]),
     /// A named tuning that is switched on or off.
     Switch(String, bool),
+    /// A rule file or a test of rules with another text.
+    Write(Write),
     /// An entry of the history that is taken back; the latest one without a number.
     Undo(Option<i64>),
     /// Several edits, one after the other, of which all are made or none.
@@ -153,9 +158,10 @@ impl Edit {
             Self::SetInTuning(tuning, cell) => tuning::set(tx, tuning, cell, author)?,
             Self::UnsetInTuning(tuning, cell) => tuning::unset(tx, tuning, cell, author)?,
             Self::Switch(tuning, on) => tuning::switch(tx, tuning, *on, author)?,
+            Self::Write(write) => file::write(tx, site, write, author)?,
             Self::Undo(id) => match id.or(tx.undoable(1)?.first().copied()) {
                 Some(id) => {
-                    let (done, with) = undo::undo(tx, rules, id, author)?;
+                    let (done, with) = undo::undo(tx, (site, rules), id, author)?;
                     return Ok(Done::of(done, with));
                 }
                 None => return Err(Error::said(Code::EditNothingToUndo, "there is nothing to undo", None)),

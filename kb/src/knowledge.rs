@@ -47,9 +47,10 @@ use crate::site::alone;
 use crate::site::base::{self, Base};
 use crate::site::clock::{Clock, stored};
 use crate::site::hours::Opening;
+use crate::site::journal;
 use crate::site::lint;
 use crate::site::over;
-use crate::site::rules::{self, Rules};
+use crate::site::rules::{self, Drafts, Rules};
 use crate::site::states;
 use crate::site::tables::TableFile;
 use crate::site::{Rooms, Site};
@@ -151,6 +152,8 @@ pub struct KnowledgeBase {
     overlays: Arc<OverlaysOf>,
     database: PathBuf,
     pub(crate) rules: Option<PathBuf>,
+    /// What stands in place of the user's own rule files.
+    drafts: Arc<Drafts>,
     pub(crate) reseed: bool,
     at: Option<Timestamp>,
     pub(crate) within: Option<f64>,
@@ -187,6 +190,7 @@ impl KnowledgeBase {
             overlays,
             database,
             rules: None,
+            drafts: Arc::default(),
             reseed: false,
             at: None,
             within: None,
@@ -409,7 +413,28 @@ impl KnowledgeBase {
 
     /// The rules that count, compiled.
     pub(crate) fn rule_base(&self) -> Result<RuleBase> {
-        Ok(rules::load(&self.site, self.rules.as_deref())?.base)
+        Ok(self.load_rules()?.base)
+    }
+
+    /// The rules that count with the tests beside them.
+    pub(crate) fn load_rules(&self) -> Result<Rules> {
+        journal::recover(&self.database)?;
+        rules::load(&self.site, self.rules.as_deref(), &self.drafts)
+    }
+
+    /// With drafts in place of the user's own rule files.
+    pub(crate) fn drafting(&self, drafts: Drafts) -> Self {
+        Self { drafts: Arc::new(drafts), ..self.clone() }
+    }
+
+    /// As it is once its drafts are files.
+    pub(crate) fn with_drafts_saved(&self) -> Self {
+        let mut saved = Self { drafts: Arc::default(), ..self.clone() };
+        let own = Base::Folder(self.rule_folder());
+        if self.rules.is_none() && self.rule_folder().exists() && saved.site.rules.last() != Some(&own) {
+            saved.site.rules.push(own);
+        }
+        saved
     }
 
     /// The folder in which the user's own rules are written; it may be still to be made.
@@ -417,18 +442,24 @@ impl KnowledgeBase {
         rules::own(&self.site, self.rules.as_deref())
     }
 
-    /// What the rules would be worth if a file of theirs held this text; nothing is saved.
+    /// What the rules would be worth if files of theirs held other texts; nothing is saved.
     ///
     /// # Arguments
-    /// `file` is a name in the folder of the rules, as `doors.rhai` or `tests/doors.toml`; without `text` it would be gone.
-    pub fn try_rules(&self, file: &str, text: Option<&str>) -> Result<Tested> {
-        let Rules { base, tests, .. } = rules::load_with(&self.site, self.rules.as_deref(), (file, text))?;
+    /// Files are called by their names in the folder of the rules, as `doors.rhai` or `tests/doors.toml`; one without a text
+    /// would be gone.
+    pub fn try_rules(&self, drafts: Drafts) -> Result<Tested> {
+        let drafted = self.drafting(drafts);
+        let Rules { base, tests, .. } = drafted.load_rules()?;
         let mut store = Store::open_read_only(&self.database)?;
         let (told, generation) =
             store.snapshot(|tx| -> Result<_> { Ok((self.told(tx, &base)?, generation::read(tx)?)) })?;
+        Ok(Tested { generation, outcomes: drafted.trial(&base, &tests, &told)?, beneath: Vec::new() })
+    }
+
+    /// Runs tests of rules for which somebody waits.
+    pub(crate) fn trial(&self, base: &RuleBase, tests: &RuleTests, told: &Told) -> Result<Vec<TestOutcome>> {
         let limits = Limits { inference: TRIAL, rule: TRIAL, ..Limits::default() };
-        let outcomes = self.run_tests(&base, &tests, &told, limits)?;
-        Ok(Tested { generation, outcomes, beneath: Vec::new() })
+        self.run_tests(base, tests, told, limits)
     }
 
     /// The files that a build reads, `site.toml` first.
@@ -442,7 +473,14 @@ impl KnowledgeBase {
         progress.stage("map");
         self.needs_course()?;
         let know = |world: &World| self.overlays.know(world);
-        Ok(Arc::new(Inputs::read(&self.site, self.rules.as_deref(), &self.planners, &self.asked()?, know)?))
+        let rules = self.load_rules()?;
+        Ok(Arc::new(Inputs::read(
+            &self.site,
+            rules,
+            self.rules.as_deref(),
+            (&self.planners, &self.asked()?),
+            know,
+        )?))
     }
 
     /// For what holds on to it while others go on.
@@ -625,7 +663,7 @@ impl KnowledgeBase {
 
     /// Runs the tests of the rule base that is in force; nothing is changed.
     pub fn test(&self) -> Result<Tested> {
-        let Rules { base, tests, beneath } = rules::load(&self.site, self.rules.as_deref())?;
+        let Rules { base, tests, beneath } = self.load_rules()?;
         let (told, generation) = if self.database.exists() {
             let mut store = Store::open_read_only(&self.database)?;
             store.snapshot(|tx| -> Result<_> { Ok((self.told(tx, &base)?, generation::read(tx)?)) })?

@@ -17,11 +17,14 @@ use adit_db::history::{Author, Edit as Entry};
 
 use crate::answer::Answer;
 use crate::edit::Tell;
+use crate::edit::react::make_tables;
 use crate::edit::{Done, Edit};
 use crate::error::{Code, Error, Result};
 use crate::knowledge::KnowledgeBase;
 use crate::live::report::Report;
 use crate::plan::course::Asked;
+use crate::site::journal::Journal;
+use crate::site::rules::Drafts;
 use crate::state::State;
 use crate::words::progress::{Silent, Stage};
 pub(crate) use memory::Memory;
@@ -158,6 +161,9 @@ impl Live {
     /// before.
     pub fn edit(&mut self, edit: &Edit, author: &Author) -> Result<Outcome> {
         self.site.needs_folder()?;
+        if !self.files_of(edit)?.is_empty() {
+            return self.edit_with_files(&KnowledgeBase::clone(&self.site), edit, author);
+        }
         if let Some(outcome) = self.follow(Some((edit, author)))? {
             return Ok(outcome);
         }
@@ -167,6 +173,33 @@ impl Live {
             Error::said(Code::LiveStale, "the site's tables were edited meanwhile", help)
         })?;
         Ok(Outcome { anew: true, ..outcome })
+    }
+
+    /// The rule files that an edit would have others, by name.
+    pub fn files_of(&mut self, edit: &Edit) -> Result<Drafts> {
+        self.store.snapshot(|tx| edit.files(tx))
+    }
+
+    /// An edit of rule files, and of whatever else belongs to it, of the site as its files now are: files, rows and all that
+    /// follows, whole or not at all.
+    pub fn edit_with_files(&mut self, site: &KnowledgeBase, edit: &Edit, author: &Author) -> Result<Outcome> {
+        let drafted = Arc::new(site.drafting(self.files_of(edit)?));
+        let inputs = drafted.inputs(&Silent)?;
+        let (done, mut memory, report, journal) = self.store.transaction(|tx| -> Result<_> {
+            let since = tx.history(1)?.first().map_or(0, |entry| entry.id);
+            make_tables(tx, &inputs.rules)?;
+            let done = edit.apply(tx, &drafted, &inputs.rules, author)?;
+            let (memory, report) = Memory::build(tx, &drafted, &inputs, &Silent)?;
+            let journal = Journal::begin(tx, drafted.database(), &drafted.rule_folder(), since)?;
+            Ok((done, memory, report, journal))
+        })?;
+        Journal::finish(journal);
+        self.site = Arc::new(drafted.with_drafts_saved());
+        memory.state.site = Arc::clone(&self.site);
+        self.memory = memory;
+        self.newest = self.store.snapshot(|tx| tx.history(1))?.first().map_or(self.newest, |entry| entry.id);
+        self.ready();
+        Ok(Outcome { done: Some(done), ..anew(report) })
     }
 
     /// Derives all anew, since others edited the tables; with what they did.

@@ -1,6 +1,7 @@
 //! What edits would change, before any of them is made.
 
 pub(crate) mod compare;
+mod drafts;
 mod routes;
 
 use std::sync::Arc;
@@ -14,10 +15,13 @@ use crate::edit::Edit;
 use crate::edit::rehearse::{Cell, differences};
 use crate::error::Result;
 use crate::graph::SiteGraph;
+use crate::graph::gauge::Gauge;
+use crate::graph::pairs::Known;
 use crate::live::Live;
 use crate::live::report::Concluded;
-use crate::state::{Nothing, State, Weighed, keep};
+use crate::state::{Courses, Nothing, State, Step, Weighed, keep};
 use crate::words::progress::Silent;
+pub use drafts::{Decides, RulesTried};
 use routes::LISTED;
 pub use routes::{PlaceRoute, PlaceRoutes};
 
@@ -52,6 +56,8 @@ pub struct Preview {
     pub closings: Vec<String>,
     /// Routes between places.
     pub routes: PlaceRoutes,
+    /// What would become of the rules, where edits are of their files.
+    pub rules: Option<RulesTried>,
     /// The route that was asked for, with the edits.
     #[schema(value_type = Option<Object>)]
     pub route: Option<Answer>,
@@ -117,6 +123,10 @@ impl Live {
 impl State {
     /// As [`Live::preview`], of the state that was forked; the site is not held up meanwhile.
     pub fn preview(mut self, edits: &[Edit], route: Option<Wanted<'_>>) -> Result<Preview> {
+        let files = self.files_of(edits)?;
+        if !files.is_empty() {
+            return self.preview_of_drafts(edits, files, route);
+        }
         let rehearsed = self.rehearse(edits)?;
         let cells = differences(&rehearsed.before, &rehearsed.after);
         if !self.told.counts_as(&rehearsed.before) {
@@ -124,50 +134,93 @@ impl State {
             let step = self.step(rehearsed.before, &mut Nothing, &Silent)?;
             self.accept(step);
         }
-        let answer = |fork: &Self| {
-            let answer =
-                |wanted: Wanted<'_>| fork.route(wanted.start, &[wanted.goal.to_owned()], wanted.robot);
-            route.map(answer).transpose()
-        };
-        let before_route = answer(&self)?;
-        let before_courses = self.courses.clone();
-        let (before, known) = (Arc::clone(self.graph()), Arc::clone(&self.known));
-        let gauge = Arc::clone(&self.gauge);
-        let robots = self.robots();
+        let before = Before::of(&self, route)?;
         let concluded = (!self.site.site().has_rooms()).then(|| self.knowledge.fork());
         let step = self.step(rehearsed.after, &mut Nothing, &Silent)?;
         let of = |knowledge: &adit_engine::KnowledgeBase| {
             keep::touched(knowledge, &self.inputs.rules, &step.changes)
         };
         let conclusions = concluded.map(|before| Concluded::between(&of(&before), &of(&self.knowledge)));
+        before.compared(
+            self,
+            step,
+            route,
+            Otherwise { cells, conclusions: conclusions.unwrap_or_default(), rules: None },
+        )
+    }
+
+    fn route_wanted(&self, route: Option<Wanted<'_>>) -> Result<Option<Answer>> {
+        let answer = |wanted: Wanted<'_>| self.route(wanted.start, &[wanted.goal.to_owned()], wanted.robot);
+        route.map(answer).transpose()
+    }
+}
+
+/// What a preview says that is not seen from the state after it.
+struct Otherwise {
+    cells: Vec<Cell>,
+    conclusions: Vec<Concluded>,
+    rules: Option<RulesTried>,
+}
+
+/// A state before edits.
+struct Before {
+    graph: Arc<SiteGraph>,
+    known: Arc<Known>,
+    gauge: Arc<Gauge>,
+    courses: Option<Arc<Courses>>,
+    route: Option<Answer>,
+}
+
+impl Before {
+    fn of(state: &State, route: Option<Wanted<'_>>) -> Result<Self> {
+        Ok(Self {
+            graph: Arc::clone(state.graph()),
+            known: Arc::clone(&state.known),
+            gauge: Arc::clone(&state.gauge),
+            courses: state.courses.clone(),
+            route: state.route_wanted(route)?,
+        })
+    }
+
+    /// What a step changes that follows from edits.
+    fn compared(
+        self,
+        mut state: State,
+        step: Step,
+        route: Option<Wanted<'_>>,
+        said: Otherwise,
+    ) -> Result<Preview> {
+        let Self { graph: before, known, gauge, courses, route: before_route } = self;
         let (layout_changed, weighed) = (step.is_cut_anew, step.weighed.clone());
-        self.accept(step);
-        let after = Arc::clone(self.graph());
+        state.accept(step);
+        let (after, robots) = (Arc::clone(state.graph()), state.robots());
         let same = !layout_changed && weighed.is_empty() && before.places == after.places;
-        let routes = if let (Some(before), Some(after)) = (&before_courses, &self.courses) {
+        let routes = if let (Some(before), Some(after)) = (&courses, &state.courses) {
             routes::between(before, after)
         } else if same {
             PlaceRoutes::none(robots.len(), before.places.len())
         } else {
-            let (before, after) = ((&*before, &*gauge), (&*after, &*self.gauge));
-            routes::compare((before, &known), after, &robots, layout_changed, self.patience)
+            let (before, after) = ((&*before, &*gauge), (&*after, &*state.gauge));
+            routes::compare((before, &known), after, &robots, layout_changed, state.patience)
         };
+        let Otherwise { cells, conclusions, rules } = said;
         Ok(Preview {
-            generation: self.generation,
+            generation: state.generation,
             cells,
-            conclusions: conclusions.unwrap_or_default(),
+            conclusions,
             closings: after.building.turned(&before.building),
             layout_changed,
-            rooms: rooms(&before, &after, &weighed, layout_changed),
-            doors: doors(&before, &after, &weighed, layout_changed),
+            rooms: rooms_of(&before, &after, &weighed, layout_changed),
+            doors: doors_of(&before, &after, &weighed, layout_changed),
             routes,
-            route: answer(&self)?,
+            rules,
+            route: state.route_wanted(route)?,
             before: before_route,
         })
     }
 }
 
-fn rooms(before: &SiteGraph, after: &SiteGraph, to: &Weighed, anew: bool) -> Changed<RoomChange> {
+fn rooms_of(before: &SiteGraph, after: &SiteGraph, to: &Weighed, anew: bool) -> Changed<RoomChange> {
     let total = after.rooms.len();
     if anew {
         return Changed { changed: total, total, list: Vec::new() };
@@ -186,7 +239,7 @@ fn rooms(before: &SiteGraph, after: &SiteGraph, to: &Weighed, anew: bool) -> Cha
     listed(total, list.filter(|change| change.old != change.new))
 }
 
-fn doors(before: &SiteGraph, after: &SiteGraph, to: &Weighed, anew: bool) -> Changed<DoorChange> {
+fn doors_of(before: &SiteGraph, after: &SiteGraph, to: &Weighed, anew: bool) -> Changed<DoorChange> {
     let total = after.doors.len();
     if anew {
         return Changed { changed: total, total, list: Vec::new() };

@@ -6,6 +6,7 @@ pub(crate) mod clock;
 pub(crate) mod driving;
 pub(crate) mod figures;
 pub(crate) mod hours;
+pub(crate) mod journal;
 pub(crate) mod lint;
 pub(crate) mod over;
 pub(crate) mod robots;

@@ -212,7 +212,7 @@ fn rules_and_tests_that_run() {
         let text = utf8(text);
         let file = if text.contains("[[test]]") { "tests/doors.toml" } else { "doors.rhai" };
         let _ = &site;
-        knowledge.try_rules(file, Some(&text)).is_ok()
+        knowledge.try_rules([(file.to_owned(), Some(text))].into()).is_ok()
     });
 }
 

@@ -16,8 +16,7 @@ pub async fn undo(connection: &mut SqliteConnection, id: i64, author: &Author) -
         return Err(conflict(format!("edit {by} did so already")));
     }
     let done = inverse(connection, &edit, author).await?;
-    let mark = sqlx::query("UPDATE history SET undone = ? WHERE id = ?").bind(done.id).bind(id);
-    mark.execute(connection).await?;
+    history::mark_undone(connection, id, done.id).await?;
     Ok(done)
 }
 

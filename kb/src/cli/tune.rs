@@ -7,7 +7,7 @@ use clap::Args;
 use super::args::SiteArgs;
 use super::build::{changes, notes, open};
 use super::output::{json, line, table};
-use crate::edit::{Edit, change};
+use crate::edit::{Edit, changed, subject};
 use crate::error::{Code, Error, Result};
 use crate::knowledge::KnowledgeBase;
 use crate::words::progress::Spinner;
@@ -138,14 +138,13 @@ pub fn history(args: &HistoryArgs) -> Result<()> {
         return json(&edits);
     }
     let rows = edits.iter().map(|edit| {
-        let column = edit.column.as_ref().map_or(String::new(), |column| format!(".{column}"));
         let undone = edit.undone.map_or(String::new(), |by| format!("undone by {by}"));
         vec![
             edit.id.to_string(),
             edit.at.clone(),
             edit.who.clone(),
-            format!("{}.{}{column}", edit.table, edit.key),
-            change(&edit.old, &edit.new),
+            subject(edit),
+            changed(edit),
             edit.why.clone(),
             undone,
         ]

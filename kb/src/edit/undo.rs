@@ -6,11 +6,19 @@ use adit_db::edit::Edited;
 use adit_db::history::{Author, Edit as Entry};
 use adit_engine::RuleBase;
 
+use super::{file, subject};
 use crate::error::Result;
+use crate::knowledge::KnowledgeBase;
+use crate::site::journal::FILES;
 
 /// Takes an edit back with all that was made together with it: other cells and rows of one edit, and what rules did of it; of
 /// what a rule did, what it did for the same reason. No rule does it again for that reason.
-pub(super) fn undo(tx: &mut Tx<'_>, rules: &RuleBase, id: i64, author: &Author) -> Result<(Edited, usize)> {
+pub(super) fn undo(
+    tx: &mut Tx<'_>,
+    (site, rules): (&KnowledgeBase, &RuleBase),
+    id: i64,
+    author: &Author,
+) -> Result<(Edited, usize)> {
     let mut parts = tx.made_together(id)?;
     parts.retain(|of| of.undone.is_none());
     let by_rule =
@@ -36,9 +44,11 @@ pub(super) fn undo(tx: &mut Tx<'_>, rules: &RuleBase, id: i64, author: &Author) 
     tx.replace_carried_out(&carried_out)?;
     let mut done = None;
     for of in parts.iter().rev() {
-        let undone = tx.undo(of.id, author)?;
+        let is_file = of.table == FILES;
+        let undone = if is_file { file::take_back(tx, site, of, author)? } else { tx.undo(of.id, author)? };
         if of.id == id {
             let key = match &of.column {
+                Some(_) if is_file => subject(of),
                 Some(column) => format!("{}.{}.{column}", of.table, undone.key),
                 None => undone.key.clone(),
             };

@@ -4,8 +4,10 @@ use adit_db::Cell;
 use adit_db::history::Edit as Entry;
 use serde_json::{Map, Value};
 
+use super::file::{self, Write};
 use super::{Done, Edit};
 use crate::knowledge::told::Whom;
+use crate::site::journal::FILES;
 use crate::words::number::number;
 
 impl Edit {
@@ -55,6 +57,7 @@ impl Edit {
                 format!("tuning {tuning}: no {table}.{row}.{column} any more")
             }
             Self::Switch(tuning, on) => format!("tuning {tuning} is {}", if *on { "on" } else { "off" }),
+            Self::Write(Write { file, .. }) => format!("{}: {}", of_file(file), file::change(old, new)),
             Self::Undo(_) => {
                 let more = match with {
                     0 => String::new(),
@@ -62,6 +65,7 @@ impl Edit {
                     more => format!(", and {more} more that were made with it"),
                 };
                 match (row(old), row(new)) {
+                    _ if key.starts_with(FILE) => format!("undone: {key} is as it was before{more}"),
                     (Some(_), None) if is_switch(old) => format!("undone: tuning {key} is off again{more}"),
                     (None, Some(_)) if is_switch(new) => format!("undone: tuning {key} is on again{more}"),
                     (Some(_), None) => format!("undone: {} is gone again{more}", called(key, old)),
@@ -71,6 +75,22 @@ impl Edit {
             }
         }
     }
+}
+
+/// Before the name of a rule file.
+const FILE: &str = "rule file ";
+
+fn of_file(file: &str) -> String {
+    format!("{FILE}{file}")
+}
+
+/// What an entry of the history is about.
+pub(crate) fn subject(Entry { table, key, column, .. }: &Entry) -> String {
+    if table == FILES {
+        return of_file(key);
+    }
+    let column = column.as_ref().map_or_else(String::new, |column| format!(".{column}"));
+    format!("{table}.{key}{column}")
 }
 
 /// What became of a cell or a row, of which the history keeps what it was and what it is.
@@ -83,15 +103,18 @@ pub(crate) fn change(old: &Cell, new: &Cell) -> String {
     }
 }
 
+/// What an entry of the history did.
+pub(crate) fn changed(Entry { table, old, new, .. }: &Entry) -> String {
+    if table == FILES { file::change(old, new) } else { change(old, new) }
+}
+
 /// An entry of the history.
-pub(crate) fn entry(Entry { table, key, column, old, new, .. }: &Entry) -> String {
+pub(crate) fn entry(of: &Entry) -> String {
+    let Entry { key, old, new, .. } = of;
     match (fact(old), fact(new)) {
         (None, Some(fact)) => format!("fact {key} ({fact}) is told"),
         (Some(fact), None) => format!("fact {key} ({fact}) is taken back"),
-        _ => {
-            let column = column.as_ref().map_or_else(String::new, |column| format!(".{column}"));
-            format!("{table}.{key}{column}: {}", change(old, new))
-        }
+        _ => format!("{}: {}", subject(of), changed(of)),
     }
 }
 

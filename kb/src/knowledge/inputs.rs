@@ -10,10 +10,10 @@ use adit_planners::read::MapReport;
 use adit_planners::world::World;
 
 use crate::error::Result;
-use crate::graph::Rules;
+use crate::graph::Rules as RuleNames;
 use crate::site::Site;
 use crate::site::lint;
-use crate::site::rules;
+use crate::site::rules::Rules;
 use crate::words::progress::Stage;
 
 /// The map and the rules, read and compiled.
@@ -21,13 +21,15 @@ pub struct Inputs {
     /// The rules.
     pub rules: Arc<RuleBase>,
     /// Their names, by number.
-    pub rule_names: Rules,
+    pub rule_names: RuleNames,
     /// The tests beside them.
     pub tests: RuleTests,
     /// The map, with what the site lays over it.
     pub world: Arc<World>,
     /// What reading the map cost or gave of free space.
     pub map_report: MapReport,
+    /// What the expert should know of the map.
+    of_map: Vec<String>,
     /// What the expert should know of both.
     pub notes: Vec<String>,
     /// How long it took.
@@ -35,29 +37,57 @@ pub struct Inputs {
 }
 
 impl Inputs {
-    /// Reads them.
+    /// Reads the map.
     ///
     /// # Arguments
     /// `rule_folder` stands instead of the site's own rules; `asked` are the properties that the planner of a map that is not cut
     /// into rooms asks for; `know` is shown the world before planners are asked anything.
     pub fn read(
         site: &Site,
+        rules: Rules,
         rule_folder: Option<&Path>,
-        planners: &[Arc<dyn Planner>],
-        asked: &[String],
+        (planners, asked): (&[Arc<dyn Planner>], &[String]),
         know: impl FnOnce(&World),
     ) -> Result<Self> {
         let began = Instant::now();
-        let rules::Rules { base: rules, tests, .. } = rules::load(site, rule_folder)?;
-        let (world, map_report, notes) = site.measured_world()?;
+        let (world, map_report, of_map) = site.measured_world()?;
         know(&world);
+        let of_map = of_map.into_iter().map(|note| note.to_string()).collect();
         let stage = Stage { name: "map".to_owned(), took: began.elapsed(), kept: false };
-        let ignored = lint::ignored(site, rule_folder, &rules, planners, asked).into_iter();
-        let ignored = ignored.map(|problem| problem.to_string()).chain(lint::unheard(&rules, &world));
-        let notes = ignored.chain(notes.into_iter().map(|note| note.to_string())).collect();
-        let names = (1..).zip(rules.rules().iter().map(|rule| rule.name().to_owned()));
-        let rule_names = names.collect();
-        let rules = Arc::new(rules);
-        Ok(Self { rules, rule_names, tests, world: Arc::new(world), map_report, notes, stage })
+        let read = Self {
+            rules: Arc::default(),
+            rule_names: RuleNames::default(),
+            tests: RuleTests::default(),
+            world: Arc::new(world),
+            map_report,
+            of_map,
+            notes: Vec::new(),
+            stage,
+        };
+        Ok(read.with_rules(site, rules, rule_folder, (planners, asked)))
+    }
+
+    /// The same map with other rules.
+    pub fn with_rules(
+        &self,
+        site: &Site,
+        Rules { base, tests, .. }: Rules,
+        rule_folder: Option<&Path>,
+        (planners, asked): (&[Arc<dyn Planner>], &[String]),
+    ) -> Self {
+        let ignored = lint::ignored(site, rule_folder, &base, planners, asked).into_iter();
+        let ignored = ignored.map(|problem| problem.to_string()).chain(lint::unheard(&base, &self.world));
+        let notes = ignored.chain(self.of_map.iter().cloned()).collect();
+        let rule_names = (1..).zip(base.rules().iter().map(|rule| rule.name().to_owned())).collect();
+        Self {
+            rules: Arc::new(base),
+            rule_names,
+            tests,
+            world: Arc::clone(&self.world),
+            map_report: self.map_report.clone(),
+            of_map: self.of_map.clone(),
+            notes,
+            stage: self.stage.clone(),
+        }
     }
 }

@@ -157,6 +157,7 @@ impl Memory {
         progress: &dyn Progress,
     ) -> Result<(Done, Report)> {
         let opened = Self::open(tx, site, inputs)?;
+        make_tables(tx, &inputs.rules)?;
         let done = edit.apply(tx, site, &inputs.rules, author)?;
         let Some(mut memory) = opened else { return Ok((done, Self::build(tx, site, inputs, progress)?.1)) };
         let graph = Arc::clone(memory.state.graph());

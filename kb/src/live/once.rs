@@ -22,6 +22,7 @@ use crate::knowledge::generation;
 use crate::knowledge::inputs::Inputs;
 use crate::knowledge::laid::Laid;
 use crate::knowledge::{Beneath, KnowledgeBase, LAYOUT};
+use crate::site::journal::Journal;
 use crate::site::robots::RobotFile;
 use crate::site::{lint, over, rules, states, tables};
 use crate::words::progress::{Progress, Silent};
@@ -90,14 +91,24 @@ impl KnowledgeBase {
         if !rehearse {
             self.needs_folder()?;
         }
-        let inputs = self.inputs(progress)?;
         let mut store = Store::open(self.database())?;
+        let site = self.drafting(store.snapshot(|tx| edit.files(tx))?).shared();
+        let inputs = site.inputs(progress)?;
         let work = |tx: &mut Tx<'_>| -> Result<(Done, Report)> {
-            let (done, mut report) = Memory::edit(tx, &self.shared(), &inputs, (edit, author), progress)?;
+            let (done, mut report) = Memory::edit(tx, &site, &inputs, (edit, author), progress)?;
             report.notes.extend(edit.overridden(tx, &done)?);
             Ok((done, report))
         };
-        if rehearse { store.rehearse(work) } else { store.transaction(work) }
+        if rehearse {
+            return store.rehearse(work);
+        }
+        let (outcome, journal) = store.transaction(|tx| -> Result<_> {
+            let since = tx.history(1)?.first().map_or(0, |entry| entry.id);
+            let outcome = work(tx)?;
+            Ok((outcome, Journal::begin(tx, self.database(), &self.rule_folder(), since)?))
+        })?;
+        Journal::finish(journal);
+        Ok(outcome)
     }
 
     /// Problems of the rules, the tables and the map. What only a build can find is found by one that is thrown
@@ -108,7 +119,7 @@ impl KnowledgeBase {
 
     /// As [`check`](Self::check), with what is to be known of the site as it was built and thrown away.
     pub(crate) fn examine<T>(&self, look: impl FnOnce(&Self) -> Result<T>) -> Result<(Vec<Finding>, T)> {
-        let rules = rules::load(self.site(), self.rules.as_deref())?.base;
+        let rules = self.rule_base()?;
         let mut problems =
             lint::ignored(self.site(), self.rules.as_deref(), &rules, self.planners(), &self.asked()?);
         let folder = tempfile::tempdir().map_err(|error| Error::io("make", &std::env::temp_dir(), &error))?;

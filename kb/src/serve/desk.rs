@@ -19,6 +19,7 @@ use crate::error::{Code, Error, Result};
 use crate::live::watch::{Eye, Files};
 use crate::live::{Live, Meanwhile, Outcome, Renewal};
 use crate::site::clock::stored;
+use crate::site::journal;
 
 /// Rules run here: their deepest nesting needs more than the usual stack.
 const STACK: usize = 16 << 20;
@@ -135,7 +136,13 @@ impl Desk {
         self.check_database()?;
         // what others did before has its own cause
         self.catch_up();
-        let edited = self.live.edit(edit, author);
+        let has_files = !self.live.files_of(edit)?.is_empty();
+        let edited = if has_files {
+            // the site as its files are: somebody may have saved another one a moment ago
+            self.shared.settings.open().and_then(|site| self.live.edit_with_files(&site, edit, author))
+        } else {
+            self.live.edit(edit, author)
+        };
         if edited.is_err() && self.live.view().generation() != self.shared.view.load().view.generation() {
             let outcome = self.live.reopen().map(Some);
             self.report(outcome, &Cause::itself("another program", EDITED));
@@ -144,6 +151,9 @@ impl Desk {
         let (who, why) = (author.who.clone(), author.why.clone());
         let what = outcome.done.as_ref().map_or_else(String::new, |done| edit.words(done));
         self.publish(&outcome, &Cause { who, why, what });
+        if has_files {
+            self.files_are_taken();
+        }
         Ok(outcome)
     }
 
@@ -189,6 +199,8 @@ impl Desk {
 
     /// Looks after what happened without us: files that were saved, edits of other programs, the clock.
     fn look_around(&mut self) {
+        // said by whoever reads the rules next
+        journal::recover(self.live.site().database()).ok();
         let now = self.look();
         // what still changes is being written: it is read when two looks agree
         if self.looked.as_ref() == Some(&now) && self.taken.as_ref() != Some(&now) {
@@ -237,8 +249,8 @@ impl Desk {
         self.report(outcome, &Cause::itself("files", "rules, map or settings were saved"));
     }
 
-    /// Remembers that the files as they now are have been taken, by whoever wrote them.
-    pub fn files_are_taken(&mut self) {
+    /// Remembers that the files as they now are have been taken.
+    fn files_are_taken(&mut self) {
         self.taken = Some(self.look());
         self.say_problems(Vec::new());
     }

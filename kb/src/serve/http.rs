@@ -79,6 +79,7 @@ fn described() -> (Router<Arc<Shared>>, OpenApi) {
         .routes(routes!(rules::list))
         .routes(routes!(rules::save, rules::remove))
         .routes(routes!(rules::check))
+        .routes(routes!(rules::versions))
         .routes(routes!(sql::ask, sql::download))
         .routes(routes!(sql::schema))
         .routes(routes!(queries::list))

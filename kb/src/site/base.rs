@@ -121,13 +121,14 @@ fn listed(folder: &Path, extension: &str) -> Result<Vec<PathBuf>> {
     Ok(paths)
 }
 
+/// Editors of Windows begin a file with a byte order mark, which is no part of its text.
+pub fn without_mark(text: String) -> String {
+    text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text)
+}
+
 fn folder_files(folder: &Path, extension: &str) -> Result<Vec<SourceFile>> {
     let read = |path: PathBuf| match fs::read_to_string(&path) {
-        Ok(text) => {
-            // editors of Windows begin a file with a byte order mark, which is no part of its text
-            let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
-            Ok(SourceFile::new(path.display().to_string(), text))
-        }
+        Ok(text) => Ok(SourceFile::new(path.display().to_string(), without_mark(text))),
         Err(error) => Err(Error::io("read", &path, &error)),
     };
     listed(folder, extension)?.into_iter().map(read).collect()

@@ -144,6 +144,11 @@ pub fn replace(path: &Path, next: &Path) -> std::io::Result<()> {
     sync_names(folder(path))
 }
 
+/// Has the name of a file on the disk, or that it is gone.
+pub fn sync_name(path: &Path) -> std::io::Result<()> {
+    sync_names(folder(path))
+}
+
 /// Takes a file away; no power cut brings it back.
 pub fn remove(path: &Path) -> std::io::Result<()> {
     fs::remove_file(path)?;

@@ -1,4 +1,4 @@
-//! Edits, and what they would change.
+//! Edits, and what they would change. What tests of rules gave belongs to them: a circle with `http/rules`.
 
 use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
@@ -10,7 +10,8 @@ use utoipa::ToSchema;
 
 use super::extract::Body;
 use super::extract::Site;
-use crate::edit::{Close, Done, Edit, Lay, Tell, Thing};
+use super::rules::{self, TestsOf};
+use crate::edit::{Close, Done, Edit, Lay, Tell, Thing, Write};
 use crate::error::Code;
 use crate::preview::{Preview, Wanted};
 use crate::serve::fault::{Answered, Failure, Fault};
@@ -142,6 +143,15 @@ pub enum Wish {
         /// Whether it is on from now on.
         on: bool,
     },
+    /// A rule file or a test of rules with another text: `doors.rhai`, `tests/doors.toml`.
+    Write {
+        file: String,
+        /// The text from now on; null for a file that goes.
+        text: Option<String>,
+        /// The version that was read before; null for a file that is new.
+        #[serde(default)]
+        version: Option<String>,
+    },
     /// An entry of the history, taken back.
     Undo {
         /// Its number; the latest one without.
@@ -157,17 +167,18 @@ pub enum Wish {
 }
 
 impl Wish {
-    /// The role that it takes.
-    fn role(&self) -> Role {
+    /// The roles that it takes.
+    fn roles(&self) -> Vec<Role> {
         match self {
             Self::Tell { .. }
             | Self::Close { .. }
             | Self::Open { .. }
             | Self::Lay(_)
             | Self::Lift { .. }
-            | Self::Retract { .. } => Role::Tell,
-            Self::Together { edits } if edits.iter().all(|edit| edit.role() == Role::Tell) => Role::Tell,
-            _ => Role::Tune,
+            | Self::Retract { .. } => vec![Role::Tell],
+            Self::Write { .. } => vec![Role::Rules],
+            Self::Together { edits } => roles(edits),
+            _ => vec![Role::Tune],
         }
     }
 
@@ -223,10 +234,19 @@ impl Wish {
                 Edit::UnsetInTuning(tuning, [table, key, column])
             }
             Self::Switch { tuning, on } => Edit::Switch(tuning, on),
+            Self::Write { file, text, version } => Edit::Write(Write { file, text, seen: version }),
             Self::Undo { edit } => Edit::Undo(edit),
             Self::Together { edits } => Edit::Together(all(edits)?),
         })
     }
+}
+
+/// The roles that edits take together.
+fn roles(edits: &[Wish]) -> Vec<Role> {
+    let mut roles: Vec<Role> = edits.iter().flat_map(Wish::roles).collect();
+    roles.sort_unstable();
+    roles.dedup();
+    roles
 }
 
 fn all(edits: Vec<Wish>) -> Answered<Vec<Edit>> {
@@ -293,6 +313,8 @@ pub struct Edited {
     pub anew: bool,
     /// What rules that react told, in sentences.
     pub reacted: Vec<String>,
+    /// What the tests of the rules gave, where rule files are others.
+    pub tests: Option<TestsOf>,
     /// Milliseconds that it took, waiting included.
     pub took_ms: f64,
 }
@@ -300,9 +322,11 @@ pub struct Edited {
 pub async fn make(site: &Site, caller: &Caller, edit: Edit, why: String) -> Answered<Edited> {
     let began = Instant::now();
     let author = Author { who: caller.name.clone(), why };
-    let wanted = edit.clone();
+    let (wanted, caller) = (edit.clone(), caller.clone());
     let edited = site.edit_at_desk(move |desk| {
-        let outcome = desk.edit(&edit, &author)?;
+        let folder = desk.live.site().rule_folder();
+        let tests = rules::tried(desk, &caller, &edit)?;
+        let outcome = desk.edit(&edit, &author).map_err(|error| rules::refused(error, &folder))?;
         Ok(Edited {
             generation: outcome.generation,
             layout: desk.live.view().layout().to_owned(),
@@ -311,6 +335,7 @@ pub async fn make(site: &Site, caller: &Caller, edit: Edit, why: String) -> Answ
             anew: outcome.anew,
             reacted: outcome.reacted,
             done: outcome.done,
+            tests,
             took_ms: 0.0,
         })
     });
@@ -336,7 +361,7 @@ async fn with_current(site: &Site, edit: &Edit, mut fault: Fault) -> Fault {
 #[utoipa::path(post, path = "/api/edits", tag = "tables", request_body = EditBody,
     responses((status = 200, body = Edited), (status = 409, description = "the cell holds another value by now", body = Failure)))]
 pub async fn edit(site: Site, caller: Caller, Body(body): Body<EditBody>) -> Answered<Json<Edited>> {
-    require(&caller, body.edit.role())?;
+    body.edit.roles().into_iter().try_for_each(|role| require(&caller, role))?;
     make(&site, &caller, body.edit.edit()?, body.why.unwrap_or_default()).await.map(Json)
 }
 
@@ -373,7 +398,7 @@ pub async fn blocked(site: Site, caller: Caller, Body(body): Body<BlockedBody>) 
     let BlockedBody { x, y, heading, only, except, until, for_seconds, why } = body;
     let wish =
         Wish::Close { what: format!("{x},{y}@{heading}"), only, except, from: None, until, for_seconds };
-    require(&caller, wish.role())?;
+    wish.roles().into_iter().try_for_each(|role| require(&caller, role))?;
     make(&site, &caller, wish.edit()?, why.unwrap_or_default()).await.map(Json)
 }
 
@@ -397,11 +422,15 @@ pub struct PreviewBody {
     patience_ms: Option<u64>,
 }
 
-/// What edits would change; nothing is saved.
+/// What edits would change; nothing is saved. With rule files it takes the role `rules`: what is tried runs.
 #[utoipa::path(post, path = "/api/preview", tag = "tables", request_body = PreviewBody,
     responses((status = 200, body = Preview)))]
-pub async fn preview(site: Site, Body(body): Body<PreviewBody>) -> Answered<Json<Preview>> {
+pub async fn preview(site: Site, caller: Caller, Body(body): Body<PreviewBody>) -> Answered<Json<Preview>> {
+    if roles(&body.edits).contains(&Role::Rules) {
+        require(&caller, Role::Rules)?;
+    }
     let edits = all(body.edits)?;
+    let folder = site.view.load().view.site().rule_folder();
     let preview = site.on_fork(move |fork| {
         let mut fork = fork.within(body.within)?;
         if let Some(patience) = body.patience_ms {
@@ -411,5 +440,11 @@ pub async fn preview(site: Site, Body(body): Body<PreviewBody>) -> Answered<Json
         let wanted = route.map(|(start, goal)| Wanted { start, goal, robot: body.robot.as_deref() });
         fork.preview(&edits, wanted)
     });
-    preview.await.map(Json)
+    let mut preview = preview.await.map_err(|fault| rules::placed(fault, &folder))?;
+    if let Some(rules) = &mut preview.rules {
+        for failure in &mut rules.failures {
+            rules::place(failure, &folder);
+        }
+    }
+    Ok(Json(preview))
 }

@@ -1,30 +1,30 @@
-//! The rule base: its files, tried and saved.
+//! The rule base: its files, tried and saved, and their versions. Saving is an edit, which answers what tests gave: a circle
+//! with `http/edits`.
 
-use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
+use adit_db::Cell;
 use adit_engine::SourceFile;
 use axum::Json;
 use serde::{Deserialize, Serialize};
-use sha2::{Digest, Sha256};
 use utoipa::ToSchema;
 
+use super::edits::{self, Edited};
 use super::extract::Site;
 use super::extract::{Asked, Body, Named};
+use crate::edit::{Edit, Write};
 use crate::error::problem::Problem;
 use crate::error::{Code, Error};
-use crate::knowledge::Tested;
+use crate::knowledge::{Tested, generation};
 use crate::live::View;
-use crate::serve::desk::{Cause, Desk};
+use crate::serve::desk::Desk;
 use crate::serve::fault::{Answered, Failure, Fault};
 use crate::serve::gate::require;
 use crate::serve::role::{Caller, Role};
-use crate::serve::token::hex;
 use crate::site::base::Base;
-use crate::site::{rules, whole};
+use crate::site::journal::FILES;
+use crate::site::rules::{self, version};
 
-/// The longest rule file, bytes.
-const LONGEST: usize = 1 << 20;
 #[derive(Serialize, ToSchema)]
 pub struct RulesAnswer {
     generation: u64,
@@ -81,10 +81,6 @@ fn beneath(base: &Base) -> String {
     }
 }
 
-fn version(text: &str) -> String {
-    hex(&Sha256::digest(text.as_bytes())[..8])
-}
-
 #[derive(Debug, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CheckBody {
@@ -100,7 +96,7 @@ pub struct Checked {
     tests: Option<TestsOf>,
 }
 
-#[derive(Serialize, ToSchema)]
+#[derive(Debug, Serialize, ToSchema)]
 pub struct TestsOf {
     passed: usize,
     failed: usize,
@@ -113,24 +109,62 @@ impl TestsOf {
         let failed = tested.outcomes.iter().filter(|outcome| !outcome.failures.is_empty()).count();
         let passed = tested.outcomes.len() - failed;
         let failures = tested.outcomes.into_iter().flat_map(|outcome| outcome.failures);
-        let failures =
-            failures.map(|failure| near(Problem::of(&failure.diagnostic.into()), folder)).collect();
+        let mut failures: Vec<Problem> =
+            failures.map(|failure| Problem::of(&failure.diagnostic.into())).collect();
+        for failure in &mut failures {
+            place(failure, folder);
+        }
         Self { passed, failed, failures }
     }
 }
 
-/// A problem that names its file as the folder does.
-fn near(mut problem: Problem, folder: &Path) -> Problem {
+/// Has a problem name its file as the folder does.
+pub fn place(problem: &mut Problem, folder: &Path) {
     if let Some(file) = &problem.file
         && let Ok(file) = Path::new(file).strip_prefix(folder)
     {
         problem.file = Some(file.display().to_string());
     }
-    problem
+}
+
+/// A fault whose problems name their files as the folder does.
+pub fn placed(mut fault: Fault, folder: &Path) -> Fault {
+    for problem in &mut fault.problems {
+        place(problem, folder);
+    }
+    fault
+}
+
+/// Why rules are refused.
+pub fn refused(error: Error, folder: &Path) -> Fault {
+    placed(error.into(), folder)
 }
 
 fn near_all(error: &Error, folder: &Path) -> Vec<Problem> {
-    Problem::all(error.problems()).into_iter().map(|problem| near(problem, folder)).collect()
+    let mut problems = Problem::all(error.problems());
+    for problem in &mut problems {
+        place(problem, folder);
+    }
+    problems
+}
+
+/// What the tests of the rules give with an edit of their files; `None` where it is about none. Where one fails, the edit is
+/// refused.
+pub fn tried(desk: &mut Desk, caller: &Caller, edit: &Edit) -> Answered<Option<TestsOf>> {
+    let files = desk.live.files_of(edit)?;
+    if files.is_empty() {
+        return Ok(None);
+    }
+    require(caller, Role::Rules)?;
+    let site = desk.shared.settings.open()?;
+    edit.check_files(&site)?;
+    let folder = site.rule_folder();
+    let tests = TestsOf::of(site.try_rules(files).map_err(|error| refused(error, &folder))?, &folder);
+    if tests.failed > 0 {
+        let message = format!("{} of {} tests of the rules fail", tests.failed, tests.failed + tests.passed);
+        return Err(Fault::new(Code::RulesTests, message).with_problems(tests.failures));
+    }
+    Ok(Some(tests))
 }
 
 /// Tries a text in place of a file's: compiled, checked, and tested with the tests beside the rules, in 10 s at most.
@@ -139,12 +173,11 @@ fn near_all(error: &Error, folder: &Path) -> Vec<Problem> {
     responses((status = 200, body = Checked)))]
 pub async fn check(site: Site, caller: Caller, Body(body): Body<CheckBody>) -> Answered<Json<Checked>> {
     require(&caller, Role::Rules)?;
-    check_name(&body.file)?;
-    check_length(&body.text)?;
+    rules::check(&body.file, Some(&body.text))?;
     let view = site.view.load().view.clone();
     let checked = site.at_length(move || {
         let (site, folder) = (view.site(), view.site().rule_folder());
-        Ok(match site.try_rules(&body.file, Some(&body.text)) {
+        Ok(match site.try_rules([(body.file, Some(body.text))].into()) {
             Ok(tested) => Checked { problems: Vec::new(), tests: Some(TestsOf::of(tested, &folder)) },
             Err(error) => Checked { problems: near_all(&error, &folder), tests: None },
         })
@@ -186,13 +219,8 @@ pub async fn save(
     Named(file): Named<String>,
     Body(body): Body<SaveBody>,
 ) -> Answered<Json<Saved>> {
-    require(&caller, Role::Rules)?;
-    check_name(&file)?;
-    check_length(&body.text)?;
     let SaveBody { text, version } = body;
-    site.edit_at_desk(move |desk| replace(desk, &caller, (&file, Some(text)), version.as_deref()))
-        .await
-        .map(Json)
+    replace(&site, &caller, Write { file, text: Some(text), seen: version }).await.map(Json)
 }
 
 #[derive(Deserialize)]
@@ -211,144 +239,87 @@ pub async fn remove(
     Named(file): Named<String>,
     Asked(Version { version }): Asked<Version>,
 ) -> Answered<Json<Saved>> {
-    require(&caller, Role::Rules)?;
-    check_name(&file)?;
-    site.edit_at_desk(move |desk| replace(desk, &caller, (&file, None), version.as_deref())).await.map(Json)
+    replace(&site, &caller, Write { file, text: None, seen: version }).await.map(Json)
 }
 
 /// Puts another text in place of a file's, or takes the file away; if the site cannot be built so, all is as it was.
-fn replace(
-    desk: &mut Desk,
-    caller: &Caller,
-    (file, text): (&str, Option<String>),
-    read: Option<&str>,
-) -> Answered<Saved> {
-    let site = desk.shared.settings.open()?;
-    let folder = site.rule_folder();
-    let path = folder.join(file);
-    let before = fs::read_to_string(&path).ok();
-    if before.is_none() && text.is_none() {
-        return Err(Fault::new(Code::RulesUnknownFile, format!("there is no rule file {file}")));
-    }
-    if before.is_some() && read.is_none() {
-        let message = format!("{file} is there already: say the version that was read");
-        return Err(
-            Fault::new(Code::RulesConflict, message).helped("GET /api/rules says the version of each file")
-        );
-    }
-    if before.as_deref().map(version).as_deref() != read {
-        let message = format!("{file} is another by now: somebody saved it since it was read");
-        return Err(
-            Fault::new(Code::RulesConflict, message).helped("read it again, then make the change again")
-        );
-    }
-    let refused = |error: Error| {
-        let problems = near_all(&error, &folder);
-        Fault::from(error).with_problems(problems)
-    };
-    let tested = site.try_rules(file, text.as_deref()).map_err(refused)?;
-    let tests = TestsOf::of(tested, &folder);
-    if tests.failed > 0 {
-        let message = format!("{} of {} tests of the rules fail", tests.failed, tests.failed + tests.passed);
-        return Err(Fault::new(Code::RulesTests, message).with_problems(tests.failures));
-    }
-    let made = !folder.exists();
-    let kept = Kept::of(&path, before.as_deref())?;
-    let taken = put(&path, text.as_deref()).and_then(|()| {
-        let site = desk.shared.settings.open()?;
-        desk.live.open_again(site).map_err(refused)
-    });
-    let outcome = match taken {
-        Ok(outcome) => outcome,
-        Err(fault) => {
-            kept.back();
-            if made {
-                fs::remove_dir_all(&folder).ok();
+async fn replace(site: &Site, caller: &Caller, write: Write) -> Answered<Saved> {
+    require(caller, Role::Rules)?;
+    let version = write.text.as_deref().map(version);
+    let edited = edits::make(site, caller, Edit::Write(write), String::new()).await?;
+    let Edited { generation, tests, rooms, doors, layout, .. } = edited;
+    Ok(Saved { generation, version, tests, rooms, doors, layout })
+}
+
+#[derive(Deserialize)]
+pub struct VersionsOf {
+    file: String,
+}
+
+#[derive(Serialize, ToSchema)]
+pub struct VersionsAnswer {
+    generation: u64,
+    file: String,
+    /// The newest first. One that nobody saved here, but with another program, is there once something was saved over it.
+    versions: Vec<VersionOf>,
+}
+
+#[derive(Serialize, ToSchema)]
+struct VersionOf {
+    /// Names its text.
+    version: Option<String>,
+    /// The text; null where there was no file.
+    text: Option<String>,
+    /// Since when, in UTC; null where another program saved it.
+    at: Option<String>,
+    who: Option<String>,
+    why: Option<String>,
+    /// The entry of the history that made it.
+    edit: Option<i64>,
+}
+
+/// The texts that a rule file or a test of rules had, as the history has them.
+#[utoipa::path(get, path = "/api/rules/versions", tag = "rules",
+    params(("file" = String, Query, description = "`doors.rhai`, or `tests/doors.toml`")),
+    responses((status = 200, body = VersionsAnswer)))]
+pub async fn versions(
+    site: Site,
+    Asked(VersionsOf { file }): Asked<VersionsOf>,
+) -> Answered<Json<VersionsAnswer>> {
+    rules::check(&file, None)?;
+    let path = site.view.load().view.site().rule_folder().join(&file);
+    let answer = site.read(move |tx| {
+        let entries = tx.history_of(FILES, Some(&file))?;
+        let mut versions: Vec<VersionOf> = Vec::new();
+        let mut put = |text: Option<String>, entry: Option<&adit_db::history::Edit>| {
+            if versions.last().is_some_and(|last| last.text == text && entry.is_none()) {
+                return;
             }
-            return Err(fault);
+            versions.push(VersionOf {
+                version: text.as_deref().map(version),
+                text,
+                at: entry.map(|entry| entry.at.clone()),
+                who: entry.map(|entry| entry.who.clone()),
+                why: entry.map(|entry| entry.why.clone()),
+                edit: entry.map(|entry| entry.id),
+            });
+        };
+        let text = |cell: &Cell| match cell {
+            Cell::Text(text) => Some(text.clone()),
+            _ => None,
+        };
+        let now = rules::text(&path)?;
+        if entries.first().is_none_or(|newest| text(&newest.new) != now) {
+            put(now, None);
         }
-    };
-    drop(kept);
-    let doing = if text.is_some() { "saved" } else { "removed" };
-    desk.publish(
-        &outcome,
-        &Cause { who: caller.name.clone(), why: String::new(), what: format!("{file} {doing}") },
-    );
-    desk.files_are_taken();
-    Ok(Saved {
-        generation: outcome.generation,
-        version: text.as_deref().map(version),
-        tests: Some(tests),
-        rooms: outcome.rooms,
-        doors: outcome.doors,
-        layout: desk.live.view().layout().to_owned(),
-    })
-}
-
-/// A file as it was, beside itself: going back to it takes no room on the disk.
-struct Kept<'p> {
-    path: &'p Path,
-    beside: Option<PathBuf>,
-}
-
-impl<'p> Kept<'p> {
-    fn of(path: &'p Path, text: Option<&str>) -> Answered<Self> {
-        let kept = Self { path, beside: text.map(|_| path.with_extension("old")) };
-        let written = kept
-            .beside
-            .iter()
-            .zip(text)
-            .try_for_each(|(old, text)| whole::write_beside(old, text.as_bytes()));
-        written.map_err(|error| Error::io("write", path, &error))?;
-        Ok(kept)
-    }
-
-    /// On a disk that syncs nothing any more all is as it was for whoever reads the file.
-    fn back(&self) {
-        match &self.beside {
-            Some(beside) => whole::replace(self.path, beside),
-            None => whole::remove(self.path),
+        for (place, entry) in entries.iter().enumerate() {
+            put(text(&entry.new), Some(entry));
+            let before = text(&entry.old);
+            if entries.get(place + 1).is_none_or(|older| text(&older.new) != before) {
+                put(before, None);
+            }
         }
-        .ok();
-    }
-}
-
-impl Drop for Kept<'_> {
-    fn drop(&mut self) {
-        self.beside.as_ref().map(fs::remove_file);
-    }
-}
-
-/// Writes a file whole, or takes it away; no power cut undoes it.
-fn put(path: &Path, text: Option<&str>) -> Answered<()> {
-    let done = match text {
-        Some(text) => {
-            let next = path.with_extension("new");
-            let made = path.parent().map_or(Ok(()), whole::lasting_folder);
-            let made = made.and_then(|()| whole::write_beside(&next, text.as_bytes()));
-            let made = made.and_then(|()| whole::replace(path, &next));
-            made.inspect_err(|_| drop(fs::remove_file(&next)))
-        }
-        None => whole::remove(path),
-    };
-    done.map_err(|error| Error::io("write", path, &error).into())
-}
-
-/// Only files of the rule base itself, by plain names.
-fn check_name(file: &str) -> Answered<()> {
-    let name = file.strip_prefix("tests/").unwrap_or(file);
-    let extension = if name.len() < file.len() { ".toml" } else { ".rhai" };
-    let is_plain = |c: char| c.is_alphanumeric() || ['-', '_', '.', ' '].contains(&c);
-    let stem = name.strip_suffix(extension).unwrap_or_default();
-    if !stem.is_empty() && !stem.starts_with(['.', ' ']) && stem.chars().all(is_plain) && name.len() < 100 {
-        return Ok(());
-    }
-    Err(Fault::new(Code::RulesName, "a rule file is called NAME.rhai, and a test of rules tests/NAME.toml"))
-}
-
-fn check_length(text: &str) -> Answered<()> {
-    if text.len() <= LONGEST {
-        return Ok(());
-    }
-    Err(Fault::new(Code::RulesTooLong, format!("a rule file may have {LONGEST} bytes")))
+        Ok(VersionsAnswer { generation: generation::read(tx)?, file, versions })
+    });
+    answer.await.map(Json)
 }

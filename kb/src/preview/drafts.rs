@@ -1,0 +1,153 @@
+//! What edits would change that rule files belong to: the rules are others then, and everything is concluded by them.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+use adit_db::door::Door;
+use adit_db::room::Room;
+use adit_db::{Store, Tx};
+use adit_engine::RuleTests;
+use serde::Serialize;
+
+use super::{Before, Otherwise, Preview, Wanted};
+use crate::edit::Edit;
+use crate::edit::react::{Recalled, make_tables};
+use crate::edit::rehearse::differences;
+use crate::error::Result;
+use crate::error::problem::Problem;
+use crate::graph::{Rules, SiteGraph};
+use crate::knowledge::KnowledgeBase;
+use crate::live::report::Concluded;
+use crate::site::rules::Drafts;
+use crate::state::{State, keep};
+use crate::words::progress::Silent;
+
+/// What would become of rules.
+#[derive(Clone, Debug, PartialEq, Serialize, utoipa::ToSchema)]
+pub struct RulesTried {
+    /// Tests that would hold.
+    pub passed: usize,
+    /// Tests that would not.
+    pub failed: usize,
+    /// What would fail in them, each with its place.
+    pub failures: Vec<Problem>,
+    /// Rules that would decide about other rooms or doors than now, and new ones that would decide about none.
+    pub decides: Vec<Decides>,
+}
+
+/// About how many rooms and doors a rule decides.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, utoipa::ToSchema)]
+pub struct Decides {
+    pub rule: String,
+    /// Now; null where there is no such rule.
+    pub old: Option<usize>,
+    /// Then; null where there would be none.
+    pub new: Option<usize>,
+}
+
+impl State {
+    /// The rule files that edits would have others.
+    pub(super) fn files_of(&self, edits: &[Edit]) -> Result<Drafts> {
+        let has_none = |edit: &Edit| !matches!(edit, Edit::Write(_) | Edit::Undo(_) | Edit::Together(_));
+        if edits.iter().all(has_none) {
+            return Ok(Drafts::new());
+        }
+        let edits = Edit::Together(edits.to_vec());
+        Store::open_read_only(self.site.database())?.snapshot(|tx| edits.files(tx))
+    }
+
+    pub(super) fn preview_of_drafts(
+        self,
+        edits: &[Edit],
+        files: Drafts,
+        route: Option<Wanted<'_>>,
+    ) -> Result<Preview> {
+        let site = self.site.drafting(files);
+        let rules = site.load_rules()?;
+        let tests = rules.tests.clone();
+        let mut inputs = self.inputs.with_rules(
+            site.site(),
+            rules,
+            site.rules.as_deref(),
+            (site.planners(), &site.asked()?),
+        );
+        // tests that fail are said beside what would change
+        inputs.tests = RuleTests::default();
+        let (site, inputs) = (site.shared(), Arc::new(inputs));
+        let author = KnowledgeBase::nobody();
+        let before = Before::of(&self, route)?;
+        let rehearsed = Store::open(site.database())?.rehearse(|tx: &mut Tx<'_>| -> Result<_> {
+            make_tables(tx, &inputs.rules)?;
+            let untouched = site.told(tx, &inputs.rules)?;
+            for edit in edits {
+                edit.apply(tx, &site, &inputs.rules, &author)?;
+            }
+            let told = site.told(tx, &inputs.rules)?;
+            let outcomes = site.trial(&inputs.rules, &tests, &told)?;
+            let cells = differences(&untouched, &told);
+            let graph = self.graph();
+            let cut = (graph.rooms.clone(), graph.doors.clone(), (*graph.building).clone());
+            let mut after = State::new(Arc::clone(&site), Arc::clone(&inputs), cut);
+            (after.generation, after.patience, after.within) = (self.generation, self.patience, self.within);
+            let step = after.step_and_react(tx, told, Recalled::OfLastBuild, &Silent)?;
+            Ok((after, step, cells, outcomes))
+        });
+        let (after, step, cells, outcomes) = rehearsed?;
+        let decides = {
+            let graphs = (&**self.graph(), &**after.graph_after(&step));
+            let names = [&self.inputs.rule_names, &inputs.rule_names];
+            decides([about(graphs.0, names[0]), about(graphs.1, names[1])], step.is_cut_anew)
+        };
+        let failed = outcomes.iter().filter(|outcome| !outcome.failures.is_empty()).count();
+        let passed = outcomes.len() - failed;
+        let failures = outcomes.into_iter().flat_map(|outcome| outcome.failures);
+        let failures = failures.map(|failure| Problem::of(&failure.diagnostic.into())).collect();
+        let conclusions = if self.site.site().has_rooms() {
+            Vec::new()
+        } else {
+            let of = |state: &State| keep::touched(&state.knowledge, &state.inputs.rules, &step.changes);
+            Concluded::between(&of(&self), &of(&after))
+        };
+        let rules = Some(RulesTried { passed, failed, failures, decides });
+        before.compared(after, step, route, Otherwise { cells, conclusions, rules })
+    }
+}
+
+/// About which rooms and doors each rule decides, by its name: rooms have even numbers, doors odd ones.
+fn about(graph: &SiteGraph, names: &Rules) -> BTreeMap<String, BTreeSet<usize>> {
+    let mut about: BTreeMap<String, BTreeSet<usize>> =
+        names.values().map(|name| (name.clone(), BTreeSet::new())).collect();
+    let mut note = |rules: [Option<i64>; 3], number: usize| {
+        for name in rules.into_iter().flatten().filter_map(|rule| names.get(&rule)) {
+            if let Some(numbers) = about.get_mut(name) {
+                numbers.insert(number);
+            }
+        }
+    };
+    let room = |room: &Room| [room.hardness.rule, room.action.rule, room.passable.rule];
+    let door = |door: &Door| [door.hardness.rule, door.action.rule, door.passable.rule];
+    for (row, of) in graph.rooms.iter().enumerate() {
+        note(room(of), 2 * row);
+    }
+    for (row, of) in graph.doors.iter().enumerate() {
+        note(door(of), 2 * row + 1);
+    }
+    about
+}
+
+fn decides([old, new]: [BTreeMap<String, BTreeSet<usize>>; 2], is_cut_anew: bool) -> Vec<Decides> {
+    let names = old.keys().chain(new.keys().filter(|name| !old.contains_key(*name)));
+    let of = |rule: &String| {
+        let (old, new) = (old.get(rule), new.get(rule));
+        let is_same = match (old, new) {
+            (Some(old), Some(new)) if is_cut_anew => old.len() == new.len(),
+            (old, new) => old == new,
+        };
+        (!is_same).then(|| Decides {
+            rule: rule.clone(),
+            old: old.map(BTreeSet::len),
+            new: new.map(BTreeSet::len),
+        })
+    };
+    names.filter_map(of).collect()
+}
