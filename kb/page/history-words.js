@@ -1,6 +1,7 @@
 /** What an entry of the history says, in the words that the page has for such things. */
 
 import { titleOf } from './cells.js';
+import { inWords } from './difference.js';
 import { value } from './format.js';
 import { describe } from './laid.js';
 import { keyName } from './pending.js';
@@ -41,8 +42,19 @@ const ROWS = {
   tuning_cells: [(row) => `${tuningCell(row)} ${value(row.value)}`, (row) => `${tuningCell(row)} as in the tables`],
 };
 
+/** `The rule file doors.rhai: 2 lines more`. */
+function ofFile({ key, old, new: now }) {
+  const [was, is] = [old, now].map((text) => (typeof text === 'string' ? text : null));
+  if (was === null) return `New file of rules ${key}`;
+  return is === null ? `The file of rules ${key} is gone` : `The file of rules ${key}: ${inWords(was, is)}`;
+}
+
+/** Whether an entry is about a rule file. */
+export const isFile = ({ table }) => table === 'rule files';
+
 /** An entry in words. */
 export function words(entry) {
+  if (isFile(entry)) return ofFile(entry);
   const [was, is] = [rowOf(entry.old), rowOf(entry.new)];
   if (!was && !is) {
     const what = entry.table === 'tuning_cells' ? cellOfTuning(entry) : `${titleOf(entry.table)}, ${keyName(entry.key)}${entry.column ? ` ${plain(entry.column)}` : ''}`;

@@ -3,7 +3,8 @@
 import { get, path, post } from './api.js';
 import { button, byId, el, fill, grid, sure } from './dom.js';
 import { moment } from './format.js';
-import { words } from './history-words.js';
+import { difference } from './difference.js';
+import { isFile, words } from './history-words.js';
 import { model } from './model.js';
 import { said } from './notice.js';
 import { summary } from './preview.js';
@@ -29,24 +30,37 @@ function row(entries, undoing) {
   const all = [...new Set(ordered.map((entry) => words(isUndo ? { ...entry, old: entry.new, new: entry.old } : entry)))];
   const what = `${isUndo ? 'Taken back: ' : ''}${all[0]}`;
   const more = all.length > 1 ? el('details', { open: all.length <= SHOWN }, el('summary', { text: `and ${all.length - 1} more` }), el('ul', { class: 'plain' }, ...all.slice(1).map((text) => el('li', { text })))) : null;
+  const texts = ordered.filter(isFile).map((entry) => el('details', {}, el('summary', { text: `What changed in ${entry.key}` }), lazily(() => difference(entry.old ?? '', entry.new ?? ''))));
   const open = entries.filter(({ undone }) => !undone);
   const undo = !open.length ? el('span', { class: 'hint', text: 'taken back' })
     : model.may('tune') ? button('Undo…', () => takeBack(open[0].id, what), { 'aria-label': `Undo ${what}` }) : null;
   const by = [first.who, first.why].filter(Boolean).join(': ');
-  return [moment(first.at), el('div', { class: 'what' }, what, by ? el('p', { class: 'hint', text: by }) : null, more), undo];
+  return [moment(first.at), el('div', { class: 'what' }, what, by ? el('p', { class: 'hint', text: by }) : null, more, ...texts), undo];
+}
+
+// Made once somebody looks.
+function lazily(make) {
+  const box = el('div');
+  setTimeout(() => box.parentElement?.addEventListener('toggle', () => { if (!box.firstChild) box.append(make()); }));
+  return box;
 }
 
 async function takeBack(edit, what) {
   const undo = { kind: 'undo', edit };
   try {
     const would = await post('/api/preview', { edits: [undo] });
-    if (!await sure(`Take back “${what}”? ${summary(would).join(' ')}`, 'Take it back')) return;
+    if (!await sure(`Take back “${what}”? ${[...summary(would), testsOf(would)].join(' ')}`, 'Take it back')) return;
     const answer = await post('/api/edits', { edit: undo });
     await refresh(answer.generation);
     await load();
   } catch (error) {
     byId('history').prepend(said(error));
   }
+}
+
+function testsOf({ rules }) {
+  if (!rules) return '';
+  return rules.failed ? `${rules.failed} tests of the rules would fail.` : `All ${rules.passed} tests of the rules pass.`;
 }
 
 async function load() {

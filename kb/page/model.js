@@ -9,6 +9,7 @@ class Model extends EventTarget {
   /** `/api/route`, or `{error}` */ route = null;
   /** `/api/preview` of what is pending */ preview = null;
   /** What is edited and not saved, by a name of its own; see `pending.js`. */ pending = new Map();
+  /** Why there is no preview of what is pending, as the service says it */ refusal = null;
   /** `/api/tunings` */ tunings = [];
   /** The tuning in which cells are edited; none: in the tables. */ editIn = '';
   /** Facts that are told, of `/api/facts` */ facts = [];

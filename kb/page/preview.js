@@ -1,7 +1,9 @@
 /** Before anything is saved: what all that is edited would change together, on the map and in numbers. */
 
 import { post } from './api.js';
+import { difference } from './difference.js';
 import { button, byId, debounced, el, fill, keep } from './dom.js';
+import { drafts, files, forget, loadFiles, overtaken, rebase } from './drafts.js';
 import { reopen } from './draw.js';
 import { cost, count, list, number, value } from './format.js';
 import { askFirm, firmWithin } from './firm.js';
@@ -9,6 +11,7 @@ import { model } from './model.js';
 import { said } from './notice.js';
 import { cells, discard, edits, keyName } from './pending.js';
 import { refresh } from './refresh.js';
+import { address } from './router.js';
 import { andRules, focusSaved, showSaved } from './saved.js';
 import { isOn } from './tunings.js';
 
@@ -43,6 +46,7 @@ const ask = debounced(async () => {
     const answer = await post('/api/preview', { ...body, patience_ms: QUICK }, { signal: stop.signal });
     failed = null;
     previewed = asked;
+    model.set('refusal', null);
     model.set('preview', answer);
     // The first answer is quick; the whole comparison follows while nobody types.
     if (answer.routes?.truncated) model.set('preview', await post('/api/preview', { ...body, patience_ms: THOROUGH }, { signal: stop.signal }));
@@ -50,12 +54,38 @@ const ask = debounced(async () => {
     if (error.name === 'AbortError' || asked !== question()) return undefined;
     failed = error;
     model.set('preview', null);
+    model.set('refusal', error);
   }
   return undefined;
 }, WAIT);
 
 const inOneWord = (item) => item.words ?? `${keyName(item.key)} ${item.column.replaceAll('_', ' ')} ${value(item.old)} → ${item.tuning && item.value === null ? 'as in the tables' : value(item.value)}${item.tuning ? ` in the tuning “${item.tuning}”${isOn(item.tuning) ? '' : ', which is off'}` : ''}`;
 const isWrong = (item) => `${item.words ?? `${keyName(item.key)} ${item.column}`}: ${item.wrong}`;
+
+const TESTS_SHOWN = 5;
+
+/** What becomes of the rules: their tests, and which of them decide about more or less than now. */
+function rulesTried(rules) {
+  if (!rules) return null;
+  const total = rules.passed + rules.failed;
+  const word = rules.failed ? `${rules.failed} of ${count(total, 'test')} of the rules would fail, so this cannot be saved.` : total ? `All ${count(total, 'test')} of the rules pass.` : 'There is no test of the rules.';
+  const failures = rules.failures.slice(0, TESTS_SHOWN).map((of) => el('li', {}, of.line ? el('a', { href: address('rules', { file: of.file, line: String(of.line) }), text: `${of.file}, line ${of.line}` }) : null, `${of.line ? ': ' : ''}${of.message}`));
+  const more = rules.failures.length > TESTS_SHOWN ? el('li', { text: `and ${rules.failures.length - TESTS_SHOWN} more` }) : null;
+  return el('div', { id: 'preview-rules' }, el('p', { class: rules.failed ? 'wrong' : 'right', text: word }), failures.length ? el('ul', { class: 'plain problems' }, ...failures, more) : null, deciding(rules.decides));
+}
+
+function deciding(decides) {
+  if (!decides.length) return null;
+  const noun = model.site.rooms_mode === 'none' || model.site.layout_kind ? 'object' : 'room or door';
+  const many = (n) => (n === 1 ? `1 ${noun}` : `${n} ${noun === 'object' ? 'objects' : 'rooms and doors'}`);
+  const line = ({ rule, old, new: now }) => {
+    const what = old === null ? (now ? `new: decides about ${many(now)}` : 'new: decides about nothing yet')
+      : now === null ? `gone: decided about ${many(old)}`
+        : old === now ? `decides about ${many(now)}, others than now` : `decides about ${many(now)}, and about ${old} now`;
+    return el('li', {}, el('q', { text: rule }), ` ${what}`);
+  };
+  return el('details', { open: decides.length <= 4 }, el('summary', { text: 'Rules that decide otherwise' }), el('ul', { class: 'plain' }, ...decides.map(line)));
+}
 
 /** The counts, in the expert's terms. */
 export function summary(preview) {
@@ -140,7 +170,7 @@ function makeCard() {
 function told() {
   const { preview } = model;
   if (failed) return [said(failed)];
-  if (preview) return [el('p', { id: 'preview-summary', text: summary(preview).join(' ') }), thisRoute(preview), conclusionList(preview.conclusions), routeList(preview.routes), firmWithin(cells().map(([, cell]) => cell))];
+  if (preview) return [el('p', { id: 'preview-summary', text: summary(preview).join(' ') }), thisRoute(preview), rulesTried(preview.rules), conclusionList(preview.conclusions), routeList(preview.routes), firmWithin(cells().map(([, cell]) => cell))];
   return [...model.pending.values()].every((item) => item.wrong) ? [] : [el('p', { class: 'hint', text: 'Looking what would change…' })];
 }
 
@@ -163,6 +193,7 @@ function listItems() {
 }
 
 function show() {
+  place();
   const { size } = model.pending;
   byId('preview-card').hidden = size === 0;
   if (!size) return;
@@ -171,15 +202,15 @@ function show() {
   fill(card.told, ...told());
   card.told.setAttribute('aria-busy', String(Boolean(model.preview) && !isPreviewed()));
   const clashes = [...conflicts].filter(([id]) => model.pending.has(id));
-  fill(card.clashes, refused ? said(refused) : null, ...clashes.map(([id, error]) => conflict(id, error)));
+  fill(card.clashes, refused ? said(refused) : null, ...clashes.map(([id, error]) => conflict(id, error)), ...overtaken().map(otherFile));
   card.whose.hidden = Boolean(sessionStorage.getItem('adit-token'));
   card.save.textContent = size === 1 ? 'Save' : `Save all ${size}`;
-  card.save.disabled = !maySave() || !isPreviewed();
+  card.save.disabled = !maySave() || !isPreviewed() || Boolean(model.preview?.rules?.failed);
   card.unseen.hidden = !isPreviewless();
   card.unseen.disabled = !maySave();
 }
 
-const maySave = () => !saving && ![...model.pending].some(([id, item]) => item.wrong || conflicts.has(id));
+const maySave = () => !saving && !overtaken().length && ![...model.pending].some(([id, item]) => item.wrong || conflicts.has(id));
 
 // What would change cannot be told: too large, too late. Whoever saves it all the same has to say so.
 const isPreviewless = () => Boolean(failed && failed.status >= 500);
@@ -190,6 +221,16 @@ function conflict(id, error) {
   return el('div', { class: 'conflict' }, el('p', { class: 'wrong', role: 'alert', text: error.message }),
     button(`Take ${theirs}`, () => settle(id, null), { class: 'take-theirs' }),
     button(`Set ${value(cell.value)} again`, () => settle(id, error.current), { class: 'set-mine' }));
+}
+
+// Somebody else saved the file since it was read: what they made of it is shown before it is saved over.
+function otherFile({ file, was, text }) {
+  const theirs = files.get(file)?.text ?? null;
+  const what = theirs === null ? `${file} was deleted by somebody else meanwhile.` : was === null ? `Somebody else has made a file ${file} meanwhile.` : `${file} was saved by somebody else meanwhile. What they changed:`;
+  return el('div', { class: 'conflict' }, el('p', { class: 'wrong', role: 'alert', text: what }), theirs === null ? null : difference(was ?? '', theirs),
+    text === null || theirs === null ? null : el('details', {}, el('summary', { text: 'Yours beside theirs' }), difference(theirs, text)),
+    button('Take theirs (what I typed is lost)', () => forget(file), { class: 'take-theirs' }),
+    button('Keep mine, over theirs', () => rebase(file), { class: 'set-mine' }));
 }
 
 // Theirs: the pending edit goes. Mine: it stands on what is there now, so that saving it is no blind overwrite.
@@ -228,6 +269,10 @@ async function saveAll(isKnown) {
     const answer = await post('/api/edits', { edit, why: card.why.value.trim() || undefined });
     // What was saved is shown as saved even before the new weights are here; what was typed meanwhile waits.
     model.pending = new Map([...model.pending].filter(([id, item]) => !isSame(sent.get(id), item)));
+    const saved = [...sent.values()].flatMap(({ draft }) => draft ?? []);
+    if (saved.length) await loadFiles();
+    // What was typed meanwhile goes on from what was saved.
+    for (const { file } of saved) rebase(file);
     if (!model.pending.size) model.preview = null;
     card.why.value = '';
     showSaved(`Saved: ${list([...sent.values()].map(inOneWord))}.${andRules([answer])}`, [answer.done.id]);
@@ -236,11 +281,12 @@ async function saveAll(isKnown) {
     await refresh(answer.generation === model.weights?.generation ? undefined : answer.generation);
   } catch (error) {
     if (error.status === 409) await refresh();
+    if (error.status === 409 && drafts().length) await loadFiles();
     for (const [id, cell] of error.status === 409 ? cells() : []) {
       const current = present(cell);
       if (current !== undefined && current !== cell.old) conflicts.set(id, { message: `${keyName(cell.key)} ${cell.column} is ${value(current)} by now, and was ${value(cell.old)} when you began.`, current });
     }
-    if (!conflicts.size) keepRefusal = error;
+    if (!conflicts.size && !overtaken().length) keepRefusal = error;
   }
   saving = false;
   model.set('pending', new Map(model.pending));
@@ -285,5 +331,31 @@ export function startPreview() {
   byId('preview-card').addEventListener('keydown', (event) => {
     if (event.key === 'Escape') discard();
   });
-  for (const id of ['map-card', 'tables', 'preview-card']) byId(id).addEventListener('keydown', saveBySign);
+  for (const id of ['map-card', 'tables', 'preview-card', 'rules', 'facts', 'experience']) byId(id).addEventListener('keydown', saveBySign);
+  model.on('generation changed problems', follow);
+  window.addEventListener('hashchange', () => setTimeout(place));
+  place();
+  follow();
+}
+
+// There is one tray: it goes to the page that is open.
+function place() {
+  const open = document.querySelector('[data-tab]:not([hidden])');
+  const slot = open?.querySelector('.tray');
+  if (!slot || byId('preview-card').parentElement === slot) return;
+  slot.append(byId('preview-card'));
+  // Beside the map what was saved is said above the tables.
+  if (slot.parentElement.matches('.side-column')) slot.parentElement.prepend(byId('saved'));
+  else slot.prepend(byId('saved'));
+}
+
+/** Looks whether files of drafts were saved by somebody else. */
+async function follow() {
+  if (!drafts().length) return;
+  try {
+    await loadFiles();
+    show();
+  } catch {
+    // An unreachable service has its own banner.
+  }
 }

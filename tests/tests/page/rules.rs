@@ -23,6 +23,13 @@ fn own_rules() -> (TestSite, Service) {
     (site, service)
 }
 
+/// The tray is ready: what is in it was previewed, and may be saved.
+async fn until_it_may_be_saved(browser: &Browser) {
+    let ready =
+        "document.getElementById('save')?.disabled === false && document.querySelector('#preview-told[aria-busy=false]')";
+    browser.until(ready, "it may be saved").await;
+}
+
 #[tokio::test(flavor = "multi_thread")]
 async fn a_broken_rule_is_underlined_and_never_replaces_the_working_one() {
     let (site, service) = own_rules();
@@ -31,18 +38,17 @@ async fn a_broken_rule_is_underlined_and_never_replaces_the_working_one() {
     replace(&browser, "through.hardness;", "through.hardnes;").await;
     browser.says("#rules-result", "hardnes").await;
     browser.until("document.querySelector('#rules .under .problem')", "the mistake is underlined").await;
+    browser.says("#preview", "hardnes").await;
     browser.screenshot("rules-broken").await;
-    browser.click("#rules-save").await;
-    browser.says("#rules-result", "Not saved").await;
+    assert_eq!(browser.value("document.getElementById('save').disabled").await, Value::Bool(true));
     assert!(!site.read("rules/doors.rhai").contains("through.hardnes;"));
 
     replace(&browser, "through.hardnes;", "through.hardness;").await;
-    browser.until("document.getElementById('rules-save').disabled", "mended: nothing is left to save").await;
+    browser.until("document.getElementById('preview-card').hidden", "mended: nothing is left to save").await;
     replace(&browser, "door.hardness = door.distance1", "door.hardness = 1.0 + door.distance1").await;
-    browser
-        .until("document.querySelector('#rules-result .wrong, #rules-result .right')", "it was checked")
-        .await;
+    browser.says("#preview-rules", "would fail, so this cannot be saved").await;
     browser.screenshot("rules-tested").await;
+    assert_eq!(browser.value("document.getElementById('save').disabled").await, Value::Bool(true));
 }
 
 #[tokio::test(flavor = "multi_thread")]
@@ -52,8 +58,9 @@ async fn a_saved_rule_is_in_force_and_a_file_edited_elsewhere_is_followed() {
     browser.says("#rules-name", "rooms.rhai").await;
     replace(&browser, "// How the robot moves", "// Tuned on the page. How the robot moves").await;
     browser.says("#rules-result", "Looks right").await;
-    browser.click("#rules-save").await;
-    browser.says("#rules-result", "Saved and in force").await;
+    until_it_may_be_saved(&browser).await;
+    browser.click("#save").await;
+    browser.says("#saved", "Saved: rooms.rhai: 1 line in place of 1").await;
     assert!(site.read("rules/rooms.rhai").contains("Tuned on the page"));
 
     // With a text editor: a mistake is said, and mended by mending the file.
@@ -80,7 +87,96 @@ async fn a_shipped_file_is_written_over_by_one_of_the_site() {
     assert!(!site.path().join("rules").exists(), "nothing is saved yet");
     replace(&browser, "// How the robot moves", "// Mine. How the robot moves").await;
     browser.says("#rules-result", "Looks right").await;
-    browser.click("#rules-save").await;
-    browser.says("#rules-result", "Saved and in force").await;
+    until_it_may_be_saved(&browser).await;
+    browser.click("#save").await;
+    browser.says("#saved", "Saved: New file rooms.rhai").await;
     assert!(site.read("rules/rooms.rhai").contains("// Mine."));
+}
+
+/// A rule and the test that it changes blocked each other: each file was checked and saved alone.
+#[tokio::test(flavor = "multi_thread")]
+async fn a_rule_its_test_a_new_file_and_a_cell_are_one_change_saved_and_taken_back_in_one_go() {
+    let (site, service) = own_rules();
+    let before = (site.read("rules/doors.rhai"), site.read("rules/tests/doors.toml"));
+    let browser = Browser::open(&service.page("#map?start=f&goal=e"), Screen::Desktop).await;
+    browser.type_into(&crate::hardness_of("SQUAT"), "3").await;
+    browser.click("nav a[href='#rules']").await;
+    browser.press("#rules-files", "doors.rhai").await;
+    replace(&browser, "door.hardness = door.distance1", "door.hardness = 2.0 * door.distance1").await;
+    browser.says("#preview-rules", "would fail").await;
+    browser.press("#rules-files", "tests/doors.toml").await;
+    browser.press(".file-head", "Delete this file").await;
+    browser.says("#rules-note", "deleted with what is saved next").await;
+    browser.type_into("#new-name", "own").await;
+    browser.press("#new-file", "Begin it").await;
+    browser.says("#rules-name", "own.rhai").await;
+    browser
+        .run("const area = document.querySelector('#rules textarea'); area.value = '// Nothing yet.\\n'; area.dispatchEvent(new Event('input', { bubbles: true }))")
+        .await;
+    browser.says("#preview-rules", "pass").await;
+    until_it_may_be_saved(&browser).await;
+    browser.screenshot("rules-tray").await;
+    assert_eq!((site.read("rules/doors.rhai"), site.read("rules/tests/doors.toml")), before);
+
+    // What is typed outlives a reload of the page.
+    browser.client.refresh().await.unwrap();
+    browser.says("#preview", "The file tests/doors.toml is deleted").await;
+    browser.says("#preview", "SQUAT hardness 4 → 3").await;
+    until_it_may_be_saved(&browser).await;
+    browser.click("#save").await;
+    browser.says("#saved", "New file own.rhai").await;
+    assert!(site.read("rules/doors.rhai").contains("2.0 * door.distance1"));
+    assert!(!site.path().join("rules/tests/doors.toml").exists());
+    assert_eq!(site.read("rules/own.rhai"), "// Nothing yet.\n");
+    assert_eq!(site.sqlite3("SELECT hardness FROM robots WHERE state = 'SQUAT'"), ["3.0"]);
+    assert_eq!(site.sqlite3("SELECT count(DISTINCT change_set) FROM history"), ["1"]);
+
+    browser.click("nav a[href='#history']").await;
+    browser.says("#history", "and 3 more").await;
+    browser.screenshot("history-of-rules").await;
+    browser.press("#history", "Undo…").await;
+    browser.says("dialog", "tests of the rules pass").await;
+    browser.press("dialog", "Take it back").await;
+    browser.says("#history", "Taken back").await;
+    assert_eq!((site.read("rules/doors.rhai"), site.read("rules/tests/doors.toml")), before);
+    assert!(!site.path().join("rules/own.rhai").exists());
+    assert_eq!(site.sqlite3("SELECT hardness FROM robots WHERE state = 'SQUAT'"), ["4.0"]);
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_file_that_somebody_else_saved_meanwhile_is_shown_and_not_written_over_unseen() {
+    let (site, service) = own_rules();
+    let browser = Browser::open(&service.page("#rules?file=rooms.rhai"), Screen::Desktop).await;
+    browser.says("#rules-name", "rooms.rhai").await;
+    replace(&browser, "// How the robot moves", "// Mine. How the robot moves").await;
+    until_it_may_be_saved(&browser).await;
+    let text = site.read("rules/rooms.rhai");
+    let (_, rules) = service.ask("GET", "/api/rules", None);
+    let file = rules["files"].as_array().unwrap().iter().find(|file| file["file"] == "rooms.rhai").unwrap();
+    let theirs = format!("{text}\n// Anna was here.\n");
+    let save = serde_json::json!({"text": theirs, "version": file["version"]});
+    assert_eq!(service.ask("PUT", "/api/rules/rooms.rhai", Some(&save)).0, 200);
+    browser.says("#preview", "saved by somebody else meanwhile").await;
+    browser.says("#preview .difference", "Anna was here").await;
+    browser.screenshot("rules-conflict").await;
+    browser.run("document.getElementById('save').click()").await;
+    assert_eq!(site.read("rules/rooms.rhai"), theirs);
+    browser.press("#preview", "Keep mine, over theirs").await;
+    until_it_may_be_saved(&browser).await;
+    browser.click("#save").await;
+    browser.says("#saved", "Saved: rooms.rhai").await;
+    assert!(site.read("rules/rooms.rhai").contains("// Mine."));
+
+    // What was theirs is a version that can be taken up again.
+    browser.click("#versions summary").await;
+    browser.until("document.querySelectorAll('#versions li > .file-head').length >= 3", "there are three").await;
+    browser.run("document.querySelectorAll('#versions li button')[2].click()").await;
+    browser.says("#versions .difference", "Anna was here").await;
+    browser.screenshot("rules-versions").await;
+    browser.run("document.querySelectorAll('#versions li button')[3].click()").await;
+    browser.says("#preview", "rooms.rhai: ").await;
+    until_it_may_be_saved(&browser).await;
+    browser.click("#save").await;
+    browser.until("document.getElementById('preview-card').hidden", "it is saved").await;
+    assert_eq!(site.read("rules/rooms.rhai"), theirs);
 }

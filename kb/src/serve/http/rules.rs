@@ -1,6 +1,7 @@
 //! The rule base: its files, tried and saved, and their versions. Saving is an edit, which answers what tests gave: a circle
 //! with `http/edits`.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use adit_db::Cell;
@@ -86,6 +87,9 @@ fn beneath(base: &Base) -> String {
 pub struct CheckBody {
     file: String,
     text: String,
+    /// Texts that stand in place of those of other files, too; null for one that would be gone.
+    #[serde(default)]
+    others: BTreeMap<String, Option<String>>,
 }
 
 #[derive(Serialize, ToSchema)]
@@ -174,10 +178,15 @@ pub fn tried(desk: &mut Desk, caller: &Caller, edit: &Edit) -> Answered<Option<T
 pub async fn check(site: Site, caller: Caller, Body(body): Body<CheckBody>) -> Answered<Json<Checked>> {
     require(&caller, Role::Rules)?;
     rules::check(&body.file, Some(&body.text))?;
+    for (file, text) in &body.others {
+        rules::check(file, text.as_deref())?;
+    }
     let view = site.view.load().view.clone();
     let checked = site.at_length(move || {
         let (site, folder) = (view.site(), view.site().rule_folder());
-        Ok(match site.try_rules([(body.file, Some(body.text))].into()) {
+        let mut drafts = body.others;
+        drafts.insert(body.file, Some(body.text));
+        Ok(match site.try_rules(drafts) {
             Ok(tested) => Checked { problems: Vec::new(), tests: Some(TestsOf::of(tested, &folder)) },
             Err(error) => Checked { problems: near_all(&error, &folder), tests: None },
         })
