@@ -29,8 +29,8 @@ export async function loadFiles() {
 }
 
 function words({ file, text, version, was }) {
-  if (text === null) return `The file ${file} is deleted`;
-  return version === null ? `New file ${file}` : `${file}: ${inWords(was, text)}`;
+  if (text === null) return `${file}: deleted`;
+  return version === null ? `${file}: new` : `${file}: ${inWords(was, text)}`;
 }
 
 function keep(draft) {

@@ -45,8 +45,7 @@ const ROWS = {
 /** `The rule file doors.rhai: 2 lines more`. */
 function ofFile({ key, old, new: now }) {
   const [was, is] = [old, now].map((text) => (typeof text === 'string' ? text : null));
-  if (was === null) return `New file of rules ${key}`;
-  return is === null ? `The file of rules ${key} is gone` : `The file of rules ${key}: ${inWords(was, is)}`;
+  return `Rule file ${key}: ${was === null ? 'new' : is === null ? 'deleted' : inWords(was, is)}`;
 }
 
 /** Whether an entry is about a rule file. */

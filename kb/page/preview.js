@@ -229,8 +229,8 @@ function otherFile({ file, was, text }) {
   const what = theirs === null ? `${file} was deleted by somebody else meanwhile.` : was === null ? `Somebody else has made a file ${file} meanwhile.` : `${file} was saved by somebody else meanwhile. What they changed:`;
   return el('div', { class: 'conflict' }, el('p', { class: 'wrong', role: 'alert', text: what }), theirs === null ? null : difference(was ?? '', theirs),
     text === null || theirs === null ? null : el('details', {}, el('summary', { text: 'Yours beside theirs' }), difference(theirs, text)),
-    button('Take theirs (what I typed is lost)', () => forget(file), { class: 'take-theirs' }),
-    button('Keep mine, over theirs', () => rebase(file), { class: 'set-mine' }));
+    el('div', { class: 'line-form' }, button('Take theirs (what I typed is lost)', () => forget(file), { class: 'take-theirs' }),
+      button('Keep mine, over theirs', () => rebase(file), { class: 'set-mine' })));
 }
 
 // Theirs: the pending edit goes. Mine: it stands on what is there now, so that saving it is no blind overwrite.

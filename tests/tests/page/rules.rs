@@ -25,8 +25,7 @@ fn own_rules() -> (TestSite, Service) {
 
 /// The tray is ready: what is in it was previewed, and may be saved.
 async fn until_it_may_be_saved(browser: &Browser) {
-    let ready =
-        "document.getElementById('save')?.disabled === false && document.querySelector('#preview-told[aria-busy=false]')";
+    let ready = "document.getElementById('save')?.disabled === false && document.querySelector('#preview-told[aria-busy=false]')";
     browser.until(ready, "it may be saved").await;
 }
 
@@ -89,7 +88,7 @@ async fn a_shipped_file_is_written_over_by_one_of_the_site() {
     browser.says("#rules-result", "Looks right").await;
     until_it_may_be_saved(&browser).await;
     browser.click("#save").await;
-    browser.says("#saved", "Saved: New file rooms.rhai").await;
+    browser.says("#saved", "Saved: rooms.rhai: new").await;
     assert!(site.read("rules/rooms.rhai").contains("// Mine."));
 }
 
@@ -120,11 +119,11 @@ async fn a_rule_its_test_a_new_file_and_a_cell_are_one_change_saved_and_taken_ba
 
     // What is typed outlives a reload of the page.
     browser.client.refresh().await.unwrap();
-    browser.says("#preview", "The file tests/doors.toml is deleted").await;
+    browser.says("#preview", "tests/doors.toml: deleted").await;
     browser.says("#preview", "SQUAT hardness 4 → 3").await;
     until_it_may_be_saved(&browser).await;
     browser.click("#save").await;
-    browser.says("#saved", "New file own.rhai").await;
+    browser.says("#saved", "own.rhai: new").await;
     assert!(site.read("rules/doors.rhai").contains("2.0 * door.distance1"));
     assert!(!site.path().join("rules/tests/doors.toml").exists());
     assert_eq!(site.read("rules/own.rhai"), "// Nothing yet.\n");
@@ -169,7 +168,9 @@ async fn a_file_that_somebody_else_saved_meanwhile_is_shown_and_not_written_over
 
     // What was theirs is a version that can be taken up again.
     browser.click("#versions summary").await;
-    browser.until("document.querySelectorAll('#versions li > .file-head').length >= 3", "there are three").await;
+    browser
+        .until("document.querySelectorAll('#versions li > .file-head').length >= 3", "there are three")
+        .await;
     browser.run("document.querySelectorAll('#versions li button')[2].click()").await;
     browser.says("#versions .difference", "Anna was here").await;
     browser.screenshot("rules-versions").await;

@@ -4,7 +4,8 @@ use adit_tests::TestSite;
 use adit_tests::service::Service;
 use serde_json::json;
 
-use crate::judge::{Fault, Recording};
+use crate::disk::files_in;
+use crate::judge::{Fault, Recording, laid_out};
 use crate::people::People;
 use crate::starter;
 use crate::tape::Recorder;
@@ -88,6 +89,51 @@ fn a_power_cut_leaves_a_rule_that_was_saved_whole_and_none_older_than_acknowledg
             is_right,
             "after {acknowledged} were acknowledged: {:?}",
             files.get("rules/draughty.rhai").map(Vec::len)
+        );
+    });
+}
+
+/// What is left is opened by the program, which goes on where the power went: the rule and the cell are both of before, or both
+/// of then.
+#[test]
+fn a_power_cut_leaves_rules_and_cells_that_were_saved_together_whole_or_not_at_all() {
+    let site = starter();
+    let disk = Recorder::of(&site);
+    let text = |number: i64| {
+        let rule = "each room in ROOMS where room.y0 < 4.0\n    set room.hardness by * 1.5 level 10\n";
+        format!("revise \"draughty\"\n    {rule}// {number}\n")
+    };
+    let recording = Recording::of(&site, &disk, || {
+        let service = Service::start_by(disk.adit(), &site, &["--listen", "127.0.0.1:0"]);
+        let mut version = json!(null);
+        for number in 1..=4 {
+            let cell = json!({"kind": "set", "table": "robots", "key": "SQUAT", "column": "hardness", "value": 10 + number});
+            let rule =
+                json!({"kind": "write", "file": "draughty.rhai", "text": text(number), "version": version});
+            let together = json!({"edit": {"kind": "together", "edits": [cell, rule]}});
+            let (status, saved) = service.ask("POST", "/api/edits", Some(&together));
+            assert_eq!(status, 200, "{saved}");
+            let (_, rules) = service.ask("GET", "/api/rules", None);
+            let files = rules["files"].as_array().unwrap();
+            version = files.iter().find(|file| file["file"] == "draughty.rhai").unwrap()["version"].clone();
+            disk.acknowledged(number);
+        }
+    });
+    recording.after_cuts(60, |acknowledged, files| {
+        let left = laid_out(files);
+        left.adit("check", &[]).expect_status(0);
+        let cell = left.sqlite3("SELECT hardness FROM robots WHERE state = 'SQUAT'").join("");
+        let rule = files_in(left.path()).remove("rules/draughty.rhai");
+        let number =
+            |number: i64| (cell == format!("{}.0", 10 + number), rule == Some(text(number).into_bytes()));
+        let is_whole = match (1..=4).find(|&of| number(of) == (true, true)) {
+            Some(of) => of == acknowledged || of == acknowledged + 1,
+            None => acknowledged == 0 && rule.is_none() && !cell.starts_with('1'),
+        };
+        assert!(
+            is_whole,
+            "after {acknowledged} were acknowledged: {cell}, {:?}",
+            rule.map(String::from_utf8)
         );
     });
 }

@@ -165,3 +165,116 @@ fn only_files_of_the_rule_base_are_written() {
     }
     assert!(site.read("site.toml").contains("name"));
 }
+
+fn write(file: &str, text: Option<&str>, version: &Value) -> Value {
+    json!({"kind": "write", "file": file, "text": text, "version": version})
+}
+
+fn edit(service: &Service, edits: &[Value]) -> (u16, Value) {
+    service.ask(
+        "POST",
+        "/api/edits",
+        Some(&json!({"edit": {"kind": "together", "edits": edits}, "why": "a try"})),
+    )
+}
+
+/// A rule and the test that it changes blocked each other: each file was checked and saved alone.
+#[test]
+fn rules_tests_and_cells_are_edited_whole_or_not_at_all() {
+    let (site, service) = served();
+    let before = cost(&service, "f", "e");
+    let ((text, version), (tests, of_tests)) =
+        (file(&service, "doors.rhai"), file(&service, "tests/doors.toml"));
+    let doubled = text.replacen("= door.distance1 *", "= 2.0 * door.distance1 *", 1);
+    let rule = write("doors.rhai", Some(&doubled), &version);
+    let gone = write("tests/doors.toml", None, &of_tests);
+    let new = write("own.rhai", Some("// Nothing yet.\n"), &Value::Null);
+    let cell = json!({"kind": "set", "table": "robots", "key": "SQUAT", "column": "hardness", "value": 3});
+
+    // the rule alone fails its test: nothing of it is kept, the cell neither; a preview says so
+    let (status, refused) = edit(&service, &[cell.clone(), rule.clone()]);
+    assert_eq!((status, &refused["error"]["code"]), (422, &json!("rules/tests")), "{refused}");
+    let preview = |edits: &[Value]| {
+        service.ask("POST", "/api/preview", Some(&json!({"edits": edits, "start": "f", "goal": "e"}))).1
+    };
+    let tried = preview(std::slice::from_ref(&rule));
+    assert!(tried["rules"]["failed"].as_u64().unwrap() > 0, "{tried}");
+    assert_eq!(tried["rules"]["failures"][0]["file"], "tests/doors.toml");
+    assert!(tried["route"]["cost"].as_f64() > tried["before"]["cost"].as_f64());
+    let mistaken = write("doors.rhai", Some("rule \"half"), &version);
+    let (status, refused) = edit(&service, &[cell.clone(), mistaken]);
+    assert_eq!((status, &refused["error"]["problems"][0]["file"]), (422, &json!("doors.rhai")), "{refused}");
+    let impossible =
+        json!({"kind": "set", "table": "robots", "key": "SQUAT", "column": "hardness", "value": -1});
+    assert_eq!(edit(&service, &[rule.clone(), gone.clone(), impossible]).0, 400);
+    assert_eq!(
+        (site.read("rules/doors.rhai"), site.read("rules/tests/doors.toml")),
+        (text.clone(), tests.clone())
+    );
+    assert_eq!(
+        (cost(&service, "f", "e"), site.sqlite3("SELECT count(*) FROM history")),
+        (before, vec!["0".to_owned()])
+    );
+
+    let all = [cell, rule, gone, new];
+    let tried = preview(&all);
+    assert_eq!(tried["rules"]["failed"], 0, "{tried}");
+    let (status, done) = edit(&service, &all);
+    assert_eq!(status, 200, "{done}");
+    assert_eq!(done["tests"]["failed"], 0);
+    let now = cost(&service, "f", "e");
+    assert_eq!((now, now > before), (tried["route"]["cost"].as_f64(), true), "as it was previewed");
+    assert_eq!(site.read("rules/own.rhai"), "// Nothing yet.\n");
+    assert!(!site.path().join("rules/tests/doors.toml").exists());
+    assert_eq!(site.sqlite3("SELECT count(DISTINCT change_set), count(*) FROM history"), ["1|4"]);
+    assert!(!site.path().join("site.db-files").exists(), "nothing is left to be done");
+
+    let undo = json!({"edit": {"kind": "undo", "edit": done["done"]["id"]}});
+    assert_eq!(service.ask("POST", "/api/edits", Some(&undo)).0, 200);
+    assert_eq!((site.read("rules/doors.rhai"), site.read("rules/tests/doors.toml")), (text, tests));
+    assert!(!site.path().join("rules/own.rhai").exists());
+    assert_eq!(cost(&service, "f", "e"), before);
+}
+
+#[test]
+fn a_file_has_its_versions_and_none_is_taken_back_over_what_somebody_saved_since() {
+    let (site, service) = served();
+    let (text, version) = file(&service, "rooms.rhai");
+    let first = format!("// One.\n{text}");
+    assert_eq!(edit(&service, &[write("rooms.rhai", Some(&first), &version)]).0, 200);
+    // in an editor
+    site.write("rules/rooms.rhai", format!("// Two.\n{text}"));
+    within_a_second(|| file(&service, "rooms.rhai").0.starts_with("// Two."));
+    let (_, version) = file(&service, "rooms.rhai");
+    assert_eq!(edit(&service, &[write("rooms.rhai", Some(&text), &version)]).0, 200);
+    let (status, answer) = service.ask("GET", "/api/rules/versions?file=rooms.rhai", None);
+    assert_eq!(status, 200, "{answer}");
+    let texts: Vec<_> =
+        answer["versions"].as_array().unwrap().iter().map(|of| of["text"].as_str().unwrap()).collect();
+    assert_eq!(texts, [&text, &format!("// Two.\n{text}"), &first, &text]);
+    assert_eq!(
+        (&answer["versions"][0]["why"], &answer["versions"][1]["who"]),
+        (&json!("a try"), &Value::Null)
+    );
+
+    let undo = json!({"edit": {"kind": "undo", "edit": 1}});
+    let (status, refused) = service.ask("POST", "/api/edits", Some(&undo));
+    assert_eq!((status, &refused["error"]["code"]), (409, &json!("rules/conflict")), "{refused}");
+    assert_eq!(service.ask("GET", "/api/rules/versions?file=../site.toml", None).0, 400);
+}
+
+#[test]
+fn the_program_tells_of_edited_rules_and_takes_them_back() {
+    let (site, service) = served();
+    let (text, version) = file(&service, "rooms.rhai");
+    let cell = json!({"kind": "set", "table": "robots", "key": "SQUAT", "column": "hardness", "value": 3});
+    let rule = write("rooms.rhai", Some(&format!("// One.\n{text}")), &version);
+    assert_eq!(edit(&service, &[rule, cell]).0, 200);
+    service.end();
+    let told = site.adit("history", &[]).expect_status(0).stdout;
+    assert!(told.contains("rule file rooms.rhai") && told.contains("1 line more"), "{told}");
+    let undone = site.adit("undo", &["1"]).expect_status(0).stdout;
+    assert!(undone.contains("rule file rooms.rhai is as it was before, and one more"), "{undone}");
+    assert_eq!(site.read("rules/rooms.rhai"), text);
+    assert_eq!(site.sqlite3("SELECT hardness FROM robots WHERE state = 'SQUAT'"), ["4.0"]);
+}
