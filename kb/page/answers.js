@@ -1,14 +1,16 @@
 /** The cards under the map: why something is so, and why not that way. */
 
-import { call, get, path } from './api.js';
-import { button, byId, el } from './dom.js';
+import { get, path } from './api.js';
+import { button, byId, el, fill } from './dom.js';
+import { edit, files, loadFiles, names, textOf } from './drafts.js';
 import { action, cost, list, number, value } from './format.js';
 import { model } from './model.js';
-import { complain, said } from './notice.js';
+import { said } from './notice.js';
 import { keyName } from './pending.js';
-import { refresh } from './refresh.js';
 import { address } from './router.js';
-import { showSaved } from './saved.js';
+
+/** Where tests that are made on the page stand. */
+const MADE = 'tests/made.toml';
 
 /** A card under the map, which has the focus; one of its kind that is there goes. */
 export function card(id, title, ...content) {
@@ -54,10 +56,29 @@ export async function why(what) {
     const answer = await get(path('/api/why', { what }));
     const facts = answer.facts ?? [];
     const told = answer.conclusions.length ? [] : [el('p', { text: 'No rule says anything of it.' })];
-    card('why-card', `Why is ${answer.name ?? what} as it is?`, ...told, el('ul', { class: 'reasons' }, ...answer.conclusions.map((of) => conclusion(of, facts))), lone(facts, answer));
+    card('why-card', `Why is ${answer.name ?? what} as it is?`, ...told, el('ul', { class: 'reasons' }, ...answer.conclusions.map((of) => conclusion(of, facts))), lone(facts, answer), testOf(answer, what));
   } catch (error) {
     card('why-card', `Why is ${what} as it is?`, said(error));
   }
+}
+
+// What rules say of it now, as a test that stands in the tray with all else.
+function testOf(answer, what) {
+  if (!model.may('rules') || !answer.conclusions.some(({ rule }) => rule)) return null;
+  const saidHere = el('div');
+  const make = button('Make a test of it', async () => {
+    try {
+      const test = await get(path('/api/rules/test', { what }));
+      if (!files.size) await loadFiles();
+      const before = names().includes(MADE) ? textOf(MADE) : '';
+      edit(MADE, `${before ? `${before.trimEnd()}\n\n` : ''}${test.text}`);
+      const fails = test.failures.length ? el('p', { class: 'wrong', text: `By itself it does not hold, since more decides than stands in it: ${test.failures[0].message}` }) : null;
+      fill(saidHere, fails, el('p', {}, `It is in the tray, at the end of ${MADE}. `, el('a', { href: address('rules', { file: MADE }), text: 'Read it' })));
+    } catch (error) {
+      fill(saidHere, said(error));
+    }
+  }, { id: 'make-test' });
+  return el('div', {}, make, saidHere);
 }
 
 // Facts that are no rule's witness: what was told of the object itself.
@@ -111,15 +132,4 @@ function rejection(of) {
     ? `its ${parts[2]} ${value(of.left)} is not ${COMPARED[parts[3]]} the ${parts[4]}’s ${parts[5]} ${value(of.right)}`
     : `${of.test ?? of.reason}${known ? `: ${value(of.left)} against ${value(of.right)}` : ''}`;
   return el('li', {}, el('b', { text: who }), ` does not fit: ${reason} (rule “${of.rule}”)`);
-}
-
-/** Takes a told fact back. */
-export async function takeBack(fact) {
-  try {
-    const answer = await call('DELETE', `/api/facts/${fact}`);
-    showSaved('Taken back.', []);
-    await refresh(answer?.generation);
-  } catch (error) {
-    complain(error);
-  }
 }

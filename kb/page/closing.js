@@ -2,9 +2,10 @@
 
 import { post } from './api.js';
 import { card } from './answers.js';
-import { el, fill, form } from './dom.js';
+import { button, el, fill, form } from './dom.js';
 import { model } from './model.js';
 import { said } from './notice.js';
+import { put } from './pending.js';
 import { refresh } from './refresh.js';
 import { andRules, showSaved } from './saved.js';
 import { holds, middleOf } from './shapes.js';
@@ -72,10 +73,17 @@ export function close(edit, label, sides = []) {
     ends ? el('label', {}, 'Until (empty: until it is opened) ', until) : null,
     oneSide ? el('label', {}, 'From ', from) : null,
     forSome ? el('label', {}, 'For ', only) : null,
-    el('label', {}, 'Why ', reason), el('button', { type: 'submit', class: 'strong', text: title }));
+    el('label', {}, 'Why ', reason), el('button', { type: 'submit', class: 'strong', text: title }),
+    button('Save it with the rest', toTheTray, { id: 'close-with-the-rest' }));
   const made = card('tell-card', title, would.node, asked);
   for (const field of [until, only, from]) field.addEventListener('input', would.look);
   would.now();
+  // Beside numbers, rules and what is drawn: previewed and saved with them.
+  function toTheTray() {
+    const edit = wish();
+    put(`close:${edit.what ?? edit.object ?? edit.fact}`, { words: `${title}${edit.from ? ` from ${edit.from}` : ''}${edit.until ? ` until ${edit.until}` : ''}${edit.only ? ` for ${edit.only}` : ''}`, edits: [edit] });
+    made.remove();
+  }
   async function make() {
     if (!would.isReady()) return;
     try {

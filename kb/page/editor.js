@@ -1,13 +1,14 @@
 /** A plain editor: a textarea over its coloured text, with line numbers. */
 
 import { el, fill } from './dom.js';
+import { completion } from './completion.js';
 import { coloured, offset } from './highlight.js';
 
 /**
  * Makes an editor.
- * @param {{label: string, language: string, changed: (text: string) => void, numbers?: boolean, rows?: number}} wishes
+ * @param {{label: string, language: string, changed: (text: string) => void, numbers?: boolean, rows?: number, propose?: (text: string, at: number) => Promise<Object[]>}} wishes
  */
-export function editor({ label, language, changed, numbers = true, rows = 24 }) {
+export function editor({ label, language, changed, numbers = true, rows = 24, propose = null }) {
   const under = el('pre', { class: 'under', 'aria-hidden': 'true' });
   const gutter = el('pre', { class: 'gutter', 'aria-hidden': 'true' });
   const area = el('textarea', { 'aria-label': label, spellcheck: 'false', autocapitalize: 'off', autocomplete: 'off', wrap: 'off', rows: String(rows) });
@@ -29,10 +30,12 @@ export function editor({ label, language, changed, numbers = true, rows = 24 }) 
     under.scrollLeft = area.scrollLeft;
     gutter.scrollTop = area.scrollTop;
   };
-  area.addEventListener('input', () => {
+  const typed = () => {
     draw();
     changed(area.value);
-  });
+  };
+  area.addEventListener('input', typed);
+  if (propose) box.append(...completion(area, { ask: propose, changed: typed, isOn: () => !area.readOnly && kind === 'rhai' }));
   area.addEventListener('scroll', scroll);
 
   return {

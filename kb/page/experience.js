@@ -2,7 +2,7 @@
 
 import { call, get, path } from './api.js';
 import { button, byId, el, fill, grid, sure } from './dom.js';
-import { number, value } from './format.js';
+import { count, number, value } from './format.js';
 import { model } from './model.js';
 import { said } from './notice.js';
 import { cellId, editCell, keyName } from './pending.js';
@@ -61,7 +61,8 @@ async function load() {
 }
 
 async function forget() {
-  if (!await sure('Delete all measurements? They cannot be brought back.', 'Delete them')) return undefined;
+  const { traversals } = await get('/api/traversals');
+  if (!await sure(`Delete all ${count(traversals.length, 'measurement')}? No route changes by that. They cannot be brought back.`, 'Delete them')) return undefined;
   try {
     await call('DELETE', '/api/traversals');
     fill(byId('experience-said'), el('p', { role: 'status', text: 'All measurements are deleted.' }));

@@ -1,7 +1,6 @@
 /** Facts: what people and robots told of single things, and until when. */
 
 import { get, post } from './api.js';
-import { takeBack } from './answers.js';
 import { askCard } from './ask.js';
 import { button, byId, el, fill, form, grid } from './dom.js';
 import { moment } from './format.js';
@@ -9,6 +8,7 @@ import { fact as words } from './history-words.js';
 import { isGoing, readLaid, takeAway } from './laid.js';
 import { model } from './model.js';
 import { said } from './notice.js';
+import { discard, put } from './pending.js';
 import { refresh } from './refresh.js';
 import { isOpen, onTab } from './router.js';
 import { andRules, showSaved } from './saved.js';
@@ -30,10 +30,20 @@ function field(label, id, attributes = {}) {
   return el('label', { 'data-field': id }, `${label} `, el('input', { id: `fact-${id}`, autocomplete: 'off', ...attributes }));
 }
 
+// What is told with rules or numbers that belong to it is previewed and saved with them.
+function toTheTray() {
+  const told = fact();
+  if (!told) return byId('fact-object').focus();
+  put(`tell:${told.class}:${told.object}:${told.property}`, { words: `Told: ${words({ ...told, key: told.object })}${told.until ? ` until ${told.until}` : ''}`, edits: [{ kind: 'tell', ...told }] });
+  byId('fact-object').value = '';
+  return would.forget();
+}
+
 function tellForm() {
+  const withTheRest = button('Save it with the rest', toTheTray, { id: 'fact-with-the-rest' });
   const kind = el('select', { id: 'fact-kind' }, ...usualHere().map((name) => el('option', { value: name, text: USUAL[name].text })));
   const made = form({ class: 'fact-form' }, tell, el('label', {}, 'What ', kind), field('Class', 'class', { placeholder: 'ROOMS, AREAS…' }), field('Which', 'object', { required: true }),
-    field('Property', 'property'), field('Value', 'value'), field('Until', 'until', { placeholder: '18:00, 2h, 2026-12-24T08:00' }), field('Why', 'why', { placeholder: 'if you like' }), el('button', { type: 'submit', class: 'strong', text: 'Tell it' }));
+    field('Property', 'property'), field('Value', 'value'), field('Until', 'until', { placeholder: '18:00, 2h, 2026-12-24T08:00' }), field('Why', 'why', { placeholder: 'if you like' }), el('div', { class: 'buttons' }, el('button', { type: 'submit', class: 'strong', text: 'Tell it' }), withTheRest));
   const choose = () => {
     const usual = USUAL[kind.value];
     for (const name of ['class', 'property', 'value']) {
@@ -69,11 +79,11 @@ async function tell() {
   if (!would.isReady()) return;
   const told = fact();
   try {
-    const answer = await post('/api/facts', { ...told, why: read('why') || undefined });
+    const answer = await post('/api/edits', { edit: { kind: 'tell', ...told }, why: read('why') || undefined });
     byId('fact-object').value = '';
     would.forget();
     fill(byId('fact-said'), el('p', { class: 'right', role: 'status', text: 'Told. Routes follow at once.' }));
-    showSaved(`Told: ${words({ ...told, key: told.object })}.${andRules([answer])}`, [], { text: 'Take it back', act: () => takeBack(answer.fact) });
+    showSaved(`Told: ${words({ ...told, key: told.object })}.${andRules([answer])}`, [answer.done.id]);
     await refresh(answer.generation);
     await load();
   } catch (error) {
@@ -81,11 +91,20 @@ async function tell() {
   }
 }
 
+const retractId = ({ id }) => `retract:${id}`;
+
+/** Has a fact taken back with what is saved next; asked once more, it stays. */
+function retracting(fact) {
+  const said = words({ ...fact, key: fact.object });
+  const text = model.pending.has(retractId(fact)) ? 'Keep' : 'Take back…';
+  return button(text, () => (model.pending.has(retractId(fact)) ? discard(retractId(fact)) : put(retractId(fact), { words: `No longer told: ${said}`, edits: [{ kind: 'retract', fact: fact.id }] })), { 'aria-label': `${text} ${said}` });
+}
+
 async function load() {
   try {
     const { facts } = await get('/api/facts');
     const rows = facts.map((fact) => [words({ ...fact, key: fact.object }), fact.until ? moment(fact.until) : 'taken back', STANDING[fact.standing] ?? fact.standing, fact.who ?? '', fact.at ? moment(fact.at) : '', fact.why ?? '',
-      model.may('tell') ? button('Take back', async () => { await takeBack(fact.id); await load(); }, { 'aria-label': `Take back: ${words({ ...fact, key: fact.object })}` }) : null]);
+      model.may('tell') ? retracting(fact) : null]);
     fill(byId('facts-list'), facts.length ? grid('What is told', ['what', 'until', 'standing', 'who', 'when', 'why', ''], rows) : el('p', { class: 'hint', text: 'Nothing is told now.' }));
   } catch (error) {
     fill(byId('facts-list'), said(error));
@@ -126,5 +145,5 @@ function show() {
 /** Makes the tab; it follows while it is open. */
 export function startFacts() {
   onTab('facts', show);
-  model.on('generation', () => { if (isOpen('facts')) load(); });
+  model.on('generation pending', () => { if (isOpen('facts')) load(); });
 }

@@ -1,15 +1,15 @@
 /** Who changed what, when and why; what was done in one go is one entry, taken back in one go, once it was seen what that does. */
 
-import { get, path, post } from './api.js';
-import { button, byId, el, fill, grid, sure } from './dom.js';
+import { get, path } from './api.js';
+import { button, byId, el, fill, grid } from './dom.js';
 import { moment } from './format.js';
 import { difference } from './difference.js';
 import { isFile, words } from './history-words.js';
 import { model } from './model.js';
 import { said } from './notice.js';
-import { summary } from './preview.js';
 import { refresh } from './refresh.js';
 import { isOpen, onTab } from './router.js';
+import { takeBackSeen } from './undo.js';
 
 const PAGE = 50;
 const SHOWN = 4;
@@ -46,21 +46,14 @@ function lazily(make) {
 }
 
 async function takeBack(edit, what) {
-  const undo = { kind: 'undo', edit };
   try {
-    const would = await post('/api/preview', { edits: [undo] });
-    if (!await sure(`Take back “${what}”? ${[...summary(would), testsOf(would)].join(' ')}`, 'Take it back')) return;
-    const answer = await post('/api/edits', { edit: undo });
+    const answer = await takeBackSeen([edit], what);
+    if (!answer) return;
     await refresh(answer.generation);
     await load();
   } catch (error) {
     byId('history').prepend(said(error));
   }
-}
-
-function testsOf({ rules }) {
-  if (!rules) return '';
-  return rules.failed ? `${rules.failed} tests of the rules would fail.` : `All ${rules.passed} tests of the rules pass.`;
 }
 
 async function load() {

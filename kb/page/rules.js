@@ -25,14 +25,20 @@ const mayEdit = () => model.may('rules') && isOwn(open) && textOf(open) !== null
 
 const first = () => names().find(isOwn) ?? names()[0];
 
+const others = (file) => Object.fromEntries(drafts().filter((other) => other.file !== file).map((other) => [other.file, other.text]));
+
+/** What may stand at a place of the open file. */
+async function propose(text, at) {
+  return (await post('/api/rules/complete', { file: open, text, others: others(open), at })).proposals;
+}
+
 const check = debounced(async () => {
   const draft = draftOf(open);
   if (!draft || draft.text === null) return;
   const file = open;
   const { text } = draft;
-  const others = Object.fromEntries(drafts().filter((other) => other.file !== file).map((other) => [other.file, other.text]));
   try {
-    const answer = await post('/api/rules/check', { file, text, others });
+    const answer = await post('/api/rules/check', { file, text, others: others(file) });
     if (file !== open || draftOf(open)?.text !== text) return;
     result(answer.problems, answer.tests);
   } catch (error) {
@@ -171,7 +177,7 @@ async function show(params) {
 
 /** Makes the tab. */
 export function startRules() {
-  pane = editor({ label: 'Text of the rules', language: 'rhai', changed: (text) => edit(open, text) });
+  pane = editor({ label: 'Text of the rules', language: 'rhai', changed: (text) => edit(open, text), propose });
   const remove = button('Delete this file', () => edit(open, null), { id: 'rules-delete', class: 'quiet' });
   const back = button('Back to what is saved', () => forget(open), { id: 'rules-back', class: 'quiet' });
   fill(byId('rules'), el('div', { id: 'rules-note' }),

@@ -1,9 +1,9 @@
 /** The word after a save, with its undo. */
 
-import { post } from './api.js';
 import { button, byId, el, fill } from './dom.js';
 import { said } from './notice.js';
 import { refresh } from './refresh.js';
+import { takeBackSeen } from './undo.js';
 
 /**
  * Says what was saved. `edits` are the numbers of the history to take back, the latest first to go.
@@ -12,7 +12,7 @@ import { refresh } from './refresh.js';
  * @param {{text: string, act: () => void}} [other] another button
  */
 export function showSaved(text, edits, other) {
-  const undo = edits.length ? button('Undo', () => undoAll(edits), { id: 'undo', class: 'strong' }) : null;
+  const undo = edits.length ? button('Undo…', () => undoAll(edits, text.replace(/^Saved: /, '').replace(/\.$/, '')), { id: 'undo', class: 'strong' }) : null;
   const more = other ? button(other.text, other.act) : null;
   fill(byId('saved'), el('div', { class: 'card done' }, el('p', { text, id: 'saved-said', tabindex: '-1' }), undo, more, button('Close', () => fill(byId('saved')), { class: 'quiet' })));
 }
@@ -26,14 +26,14 @@ export const andRules = (answers) => {
 /** Gives the focus to the word itself, not to its undo: who holds the key, or presses it once more, must not undo. */
 export const focusSaved = () => byId('saved-said').focus({ preventScroll: true });
 
-async function undoAll(edits) {
+async function undoAll(edits, what) {
   const hadFocus = byId('saved').contains(document.activeElement);
   try {
-    let answer = null;
-    for (const edit of [...edits].reverse()) answer = await post('/api/edits', { edit: { kind: 'undo', edit } });
-    showSaved('Taken back. The tables are as they were.', []);
+    const answer = await takeBackSeen(edits, what);
+    if (!answer) return;
+    showSaved('Taken back. All is as it was.', []);
     if (hadFocus) focusSaved();
-    await refresh(answer?.generation);
+    await refresh(answer.generation);
   } catch (error) {
     byId('saved').append(el('div', { class: 'card' }, said(error)));
   }

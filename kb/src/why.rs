@@ -6,6 +6,7 @@ mod course;
 mod facts;
 pub mod firm;
 pub mod hindered;
+mod made_test;
 mod meant;
 mod probe;
 mod said;
@@ -28,6 +29,7 @@ use crate::why::subject::Subject;
 use crate::why::told::Telling;
 use crate::words::suggest::did_you_mean;
 pub use facts::Facts;
+pub use made_test::MadeTest;
 pub(crate) use said::roughly;
 
 /// What is concluded about an object, and why.

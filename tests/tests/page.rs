@@ -33,6 +33,8 @@ mod sql;
 mod tune;
 #[path = "page/tunings.rs"]
 mod tunings;
+#[path = "page/two.rs"]
+mod two;
 #[path = "page/unseen.rs"]
 mod unseen;
 

@@ -14,11 +14,51 @@ mod test_names;
 mod tokens;
 mod vocabulary;
 
+use std::path::Path;
+
 use clap::Args;
 use lsp_server::Connection;
+use lsp_types::{CompletionItemKind, Documentation};
 
+use self::complete::complete;
+use self::library::Library;
+use self::project::Project;
 use self::server::{Server, capabilities};
+use self::vocabulary::Vocabulary;
 use crate::error::{Code, Error, Result};
+use crate::knowledge::KnowledgeBase;
+use crate::serve::settings::Proposal;
+use crate::site::rules::Drafts;
+
+/// What may stand at a byte of a rule file of a site, as it is with these drafts.
+pub fn propose(site: &KnowledgeBase, drafts: &Drafts, file: &str, byte: usize) -> Result<Vec<Proposal>> {
+    let folder = std::path::absolute(site.rule_folder());
+    let folder = folder.map_err(|error| Error::io("find", &site.rule_folder(), &error))?;
+    let home = std::path::absolute(&site.site().folder);
+    let home = home.map_err(|error| Error::io("find", &site.site().folder, &error))?;
+    let texts = drafts.iter().filter_map(|(file, text)| Some((folder.join(file), text.clone()?)));
+    let library = Library::read(&Project::Site(home), &texts.collect(), Path::new(""));
+    let Some(of) = library.file(&folder.join(file)).filter(|_| !file.starts_with("tests/")) else {
+        return Ok(Vec::new());
+    };
+    let vocabulary = Vocabulary::new(site.classes()?);
+    let proposals = complete(&library, &vocabulary, of, byte).into_iter().map(|item| Proposal {
+        text: item.label,
+        kind: match item.kind {
+            Some(CompletionItemKind::CLASS) => "class",
+            Some(CompletionItemKind::FIELD) => "property",
+            Some(CompletionItemKind::VARIABLE) => "variable",
+            Some(CompletionItemKind::FUNCTION) => "function",
+            _ => "word",
+        },
+        detail: item.detail,
+        what: item.documentation.map(|said| match said {
+            Documentation::String(text) => text,
+            Documentation::MarkupContent(said) => said.value,
+        }),
+    });
+    Ok(proposals.collect())
+}
 
 #[derive(Args, Debug)]
 pub struct LspArgs {

@@ -7,6 +7,7 @@ use std::time::Duration;
 use clap::{Args, Subcommand};
 
 use super::args::SiteArgs;
+use super::lsp;
 use super::output::{json, line, remark, table};
 use crate::error::Result;
 use crate::error::problem::Problem;
@@ -95,6 +96,7 @@ pub fn run(args: &ServeArgs) -> Result<()> {
         requests: args.requests,
         subscribers: args.subscribers,
         log: remark,
+        complete: lsp::propose,
     };
     let site = settings.open()?;
     let name = &site.site().name;

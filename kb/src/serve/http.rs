@@ -80,6 +80,8 @@ fn described() -> (Router<Arc<Shared>>, OpenApi) {
         .routes(routes!(rules::save, rules::remove))
         .routes(routes!(rules::check))
         .routes(routes!(rules::versions))
+        .routes(routes!(rules::complete))
+        .routes(routes!(rules::made_test))
         .routes(routes!(sql::ask, sql::download))
         .routes(routes!(sql::schema))
         .routes(routes!(queries::list))

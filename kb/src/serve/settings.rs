@@ -4,8 +4,28 @@ use std::net::SocketAddr;
 use std::path::PathBuf;
 use std::time::Duration;
 
+use serde::Serialize;
+use utoipa::ToSchema;
+
 use crate::error::Result;
 use crate::knowledge::KnowledgeBase;
+use crate::site::rules::Drafts;
+
+/// What may stand where somebody types a rule.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, ToSchema)]
+pub struct Proposal {
+    /// What would be written.
+    pub text: String,
+    /// What it is: a class, a property, a variable, a word or a function.
+    pub kind: &'static str,
+    /// Its type, or its class.
+    pub detail: Option<String>,
+    /// What the manual says of it, as Markdown.
+    pub what: Option<String>,
+}
+
+/// A rule file as it is written: the site, files with their texts in place of what is saved, its name, and a byte of its text.
+pub type Complete = fn(&KnowledgeBase, &Drafts, &str, usize) -> Result<Vec<Proposal>>;
 
 #[derive(Clone, Debug)]
 pub struct Settings {
@@ -25,6 +45,8 @@ pub struct Settings {
     pub subscribers: usize,
     /// Hears what whoever runs the service should know.
     pub log: fn(&str),
+    /// Knows what may stand where somebody types.
+    pub complete: Complete,
 }
 
 impl Settings {

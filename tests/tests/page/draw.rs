@@ -58,6 +58,7 @@ async fn an_area_is_dragged_named_where_it_lies_previewed_saved_and_taken_back()
         )
         .await;
     browser.click("#undo").await;
+    browser.press("dialog", "Take it back").await;
     browser.says("#saved", "Taken back").await;
     browser.says("#route-title .total", &cost).await;
     assert_eq!(site.sqlite3(LAID), Vec::<String>::new());
@@ -153,6 +154,7 @@ async fn what_lies_over_the_map_is_taken_away_or_moved_from_the_map_with_a_previ
     assert_eq!(site.sqlite3(LAID), ["obstacle|pallets||[[7.0,2.0],[8.0,2.0],[8.0,3.0],[7.0,3.0]]"]);
     assert_eq!(site.sqlite3("SELECT count(DISTINCT change_set) FROM history"), ["2"], "one edit, one undo");
     browser.click("#undo").await;
+    browser.press("dialog", "Take it back").await;
     browser.says("#saved", "Taken back").await;
     assert_eq!(site.sqlite3(LAID), ["obstacle|pallets||[[7.0,2.0],[9.0,2.0],[9.0,5.5],[7.0,5.5]]"]);
 }

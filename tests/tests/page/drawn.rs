@@ -38,6 +38,7 @@ async fn a_corridor_is_closed_beside_its_picture_and_the_way_is_drawn_anew() {
     browser.until(&format!("{drawn} !== window.before"), "the way drawn anew").await;
     assert_eq!(site.sqlite3("SELECT closed FROM channels WHERE channel = 2"), ["1"]);
     browser.click("#undo").await;
+    browser.press("dialog", "Take it back").await;
     browser.says("#route-card", "channel 2").await;
     let why = "[...document.querySelectorAll('#route-card button')].find((one) => one.ariaLabel?.startsWith('Why turn')).click()";
     browser.run(why).await;

@@ -60,5 +60,8 @@ async fn a_way_is_asked_a_cell_tuned_and_taken_back_by_keys_alone() {
     browser.run("document.getElementById('content').focus()").await;
     tab_to(&browser, "e.id === 'undo'").await;
     press(&browser, ENTER).await;
+    browser.says("dialog", "would weigh otherwise").await;
+    tab_to(&browser, "e.textContent === 'Take it back'").await;
+    press(&browser, ENTER).await;
     browser.says("#saved", "Taken back").await;
 }

@@ -62,6 +62,7 @@ async fn a_state_comes_as_another_one_with_its_changes_and_goes_again() {
     browser.says("#saved", "Gone from Robot states: KNEEL").await;
     assert_eq!(site.sqlite3(STATES), before);
     browser.click("#undo").await;
+    browser.press("dialog", "Take it back").await;
     browser.says("#saved", "Taken back").await;
     assert_eq!((site.sqlite3(STATES).len(), site.sqlite3(CHANGES).len()), (before.len() + 1, 4));
 }
@@ -94,6 +95,7 @@ async fn cells_rows_and_drawings_are_saved_in_one_go_and_taken_back_in_one_click
         ["1|new knees|new knees"]
     );
     browser.click("#undo").await;
+    browser.press("dialog", "Take it back").await;
     browser.says("#saved", "Taken back").await;
     assert_eq!(content(), before);
 }

@@ -20,5 +20,6 @@ async fn a_price_is_tuned_with_what_follows_beside_it() {
     browser.says("[data-table='orders'] [data-key='2']", "58").await;
     assert_eq!(site.sqlite3("SELECT price FROM products WHERE product = 'tea'"), ["5.0"]);
     browser.click("#undo").await;
+    browser.press("dialog", "Take it back").await;
     browser.says("[data-table='orders'] [data-key='2']", "49.36").await;
 }

@@ -39,6 +39,7 @@ async fn a_cell_is_previewed_saved_and_taken_back() {
     assert_eq!(kept, ["7.0"]);
 
     browser.click("#undo").await;
+    browser.press("dialog", "Take it back").await;
     browser.says("#saved", "Taken back").await;
     browser.says("#route", "walk-on-knee").await;
     assert_eq!(browser.text("#route-title .total").await, cost);

@@ -185,8 +185,10 @@ async fn a_double_click_takes_back_one_fact() {
     // the list follows each fact; the buttons are to be those of the last one
     tokio::time::sleep(Duration::from_millis(500)).await;
     browser.double_click("#facts-list button").await;
-    browser.until("document.querySelectorAll('#facts-list button').length === 2", "one is taken back").await;
     tokio::time::sleep(Duration::from_millis(500)).await;
+    until_it_may_be_saved(&browser).await;
+    browser.press("#preview", "Save").await;
+    browser.until("document.querySelectorAll('#facts-list button').length === 2", "one is taken back").await;
     let (_, facts) = service.ask("GET", "/api/facts", None);
     assert_eq!(facts["facts"].as_array().unwrap().len(), 2, "{facts}");
 }

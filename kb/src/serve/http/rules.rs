@@ -22,9 +22,11 @@ use crate::serve::desk::Desk;
 use crate::serve::fault::{Answered, Failure, Fault};
 use crate::serve::gate::require;
 use crate::serve::role::{Caller, Role};
+use crate::serve::settings::Proposal;
 use crate::site::base::Base;
 use crate::site::journal::FILES;
 use crate::site::rules::{self, version};
+use crate::why::MadeTest;
 
 #[derive(Serialize, ToSchema)]
 pub struct RulesAnswer {
@@ -331,4 +333,69 @@ pub async fn versions(
         Ok(VersionsAnswer { generation: generation::read(tx)?, file, versions })
     });
     answer.await.map(Json)
+}
+
+#[derive(Debug, Deserialize, ToSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CompleteBody {
+    file: String,
+    text: String,
+    /// Texts that stand in place of those of other files, too; null for one that would be gone.
+    #[serde(default)]
+    others: BTreeMap<String, Option<String>>,
+    /// Before which character of the text, from 0, in UTF-16.
+    at: usize,
+}
+
+#[derive(Serialize, ToSchema)]
+pub struct CompleteAnswer {
+    proposals: Vec<Proposal>,
+}
+
+/// What may stand at a place of a rule file: classes, properties, variables, words and functions. Role `rules`.
+#[utoipa::path(post, path = "/api/rules/complete", tag = "rules", request_body = CompleteBody,
+    responses((status = 200, body = CompleteAnswer)))]
+pub async fn complete(
+    site: Site,
+    caller: Caller,
+    Body(body): Body<CompleteBody>,
+) -> Answered<Json<CompleteAnswer>> {
+    require(&caller, Role::Rules)?;
+    let CompleteBody { file, text, others, at } = body;
+    rules::check(&file, Some(&text))?;
+    for (file, text) in &others {
+        rules::check(file, text.as_deref())?;
+    }
+    let (view, complete) = (site.view.load().view.clone(), site.settings.complete);
+    let answer = site.at_length(move || {
+        let mut units = 0;
+        let before = |c: &char| {
+            units += c.len_utf16();
+            units <= at
+        };
+        let byte = text.chars().take_while(before).map(char::len_utf8).sum();
+        let mut drafts = others;
+        drafts.insert(file.clone(), Some(text));
+        Ok(CompleteAnswer { proposals: complete(view.site(), &drafts, &file, byte)? })
+    });
+    answer.await.map(Json)
+}
+
+#[derive(Deserialize)]
+pub struct What {
+    what: String,
+}
+
+/// A test of rules of what is there: it holds as long as rules say of an object what they say of it now. Role `rules`: it
+/// runs.
+#[utoipa::path(get, path = "/api/rules/test", tag = "rules",
+    params(("what" = String, Query, description = "`room d`, `door 7`, `doors.7`")),
+    responses((status = 200, body = MadeTest)))]
+pub async fn made_test(
+    site: Site,
+    caller: Caller,
+    Asked(What { what }): Asked<What>,
+) -> Answered<Json<MadeTest>> {
+    require(&caller, Role::Rules)?;
+    site.on_fork(move |fork| fork.made_test(&what)).await.map(Json)
 }
