@@ -19,7 +19,9 @@ const isForTerminals = (help) => help.includes('`adit ');
 
 /** An error as nodes: what is wrong, and what helps. */
 export function said(error) {
-  const parts = [el('p', { class: 'wrong', role: 'alert', text: error.message })];
+  const [only, second] = error.problems ?? [];
+  const place = only?.line && !second && only.message === error.message ? where(only) : '';
+  const parts = [el('p', { class: 'wrong', role: 'alert', text: place + error.message })];
   if (error.help && !isForTerminals(error.help)) parts.push(el('p', { class: 'hint', text: error.help }));
   for (const problem of error.problems ?? []) {
     if (problem.message !== error.message) parts.push(el('p', { class: 'hint', text: where(problem) + problem.message }));

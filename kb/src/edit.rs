@@ -35,8 +35,7 @@ pub use file::Write;
 pub use lay::{Lay, Thing};
 pub use tell::Tell;
 pub(crate) use tuning::known as known_tuning;
-use words::change;
-pub(crate) use words::{changed, entry, subject};
+pub(crate) use words::{change, changed, entry, subject};
 
 /// What is to be edited. Values are as people write them; the column says what they must be.
 #[derive(Clone, Debug, PartialEq)]

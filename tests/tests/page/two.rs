@@ -90,7 +90,11 @@ async fn of_random_edits_of_two_people_none_is_lost_and_none_saved_over_unseen()
                 browser.run(&cell).await;
             }
             5 | 6 => {
-                tokio::time::sleep(Duration::from_millis(chance.below(600) as u64)).await;
+                if chance.is(0.7) {
+                    browser.run(&press("Keep mine")).await;
+                    browser.run(&press("Set ")).await;
+                }
+                tokio::time::sleep(Duration::from_millis(chance.below(1_500) as u64)).await;
                 browser.run(&press("Save")).await;
             }
             7 => browser.ctrl_enter(),
