@@ -11,6 +11,7 @@ use adit_engine::RuleBase;
 use crate::error::{Code, Error, Result};
 use crate::knowledge::KnowledgeBase;
 use crate::knowledge::tunings;
+use crate::site::rules::{self, Drafts};
 use crate::site::sheet::Sheet;
 
 mod cells;
@@ -175,6 +176,41 @@ impl Edit {
             }
         };
         Ok(Done::of(done, 0))
+    }
+}
+
+impl Edit {
+    /// The rule files that would be others, by name.
+    pub(crate) fn files(&self, tx: &mut Tx<'_>) -> Result<Drafts> {
+        match self {
+            Self::Write(Write { file, text, .. }) => {
+                rules::check(file, text.as_deref())?;
+                Ok([(file.clone(), text.clone())].into())
+            }
+            Self::Undo(id) => file::undone(tx, *id),
+            Self::Together(edits) => {
+                let mut files = Drafts::new();
+                for edit in edits {
+                    for (file, text) in edit.files(tx)? {
+                        if files.insert(file.clone(), text).is_some() {
+                            let message = format!("{file} is edited twice in one go");
+                            return Err(Error::said(Code::EditUsage, message, None));
+                        }
+                    }
+                }
+                Ok(files)
+            }
+            _ => Ok(Drafts::new()),
+        }
+    }
+
+    /// Refuses edits of files that are others by now than the editor saw.
+    pub(crate) fn check_files(&self, site: &KnowledgeBase) -> Result<()> {
+        match self {
+            Self::Write(write) => file::before(site, write).map(drop),
+            Self::Together(edits) => edits.iter().try_for_each(|edit| edit.check_files(site)),
+            _ => Ok(()),
+        }
     }
 }
 

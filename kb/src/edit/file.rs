@@ -7,7 +7,6 @@ use adit_db::cell::Cell;
 use adit_db::edit::Edited;
 use adit_db::history::{Author, Edit as Entry};
 
-use super::Edit;
 use crate::error::{Code, Error, Result};
 use crate::knowledge::KnowledgeBase;
 use crate::site::journal::FILES;
@@ -27,58 +26,17 @@ pub struct Write {
     pub seen: Option<String>,
 }
 
-impl Edit {
-    /// The rule files that would be others, by name.
-    pub(crate) fn files(&self, tx: &mut Tx<'_>) -> Result<Drafts> {
-        let mut files = Drafts::new();
-        self.note_files(tx, &mut files)?;
-        Ok(files)
-    }
-
-    /// Refuses edits of files that are others by now than the editor saw.
-    pub(crate) fn check_files(&self, site: &KnowledgeBase) -> Result<()> {
-        match self {
-            Self::Write(write) => before(site, write).map(drop),
-            Self::Together(edits) => edits.iter().try_for_each(|edit| edit.check_files(site)),
-            _ => Ok(()),
-        }
-    }
-
-    fn note_files(&self, tx: &mut Tx<'_>, files: &mut Drafts) -> Result<()> {
-        match self {
-            Self::Write(Write { file, text, .. }) => {
-                rules::check(file, text.as_deref())?;
-                if files.insert(file.clone(), text.clone()).is_some() {
-                    let message = format!("{file} is edited twice in one go");
-                    return Err(Error::said(Code::EditUsage, message, None));
-                }
-            }
-            Self::Undo(id) => {
-                let Some(id) = id.or(tx.undoable(1)?.first().copied()) else { return Ok(()) };
-                let made = tx.made_together(id)?;
-                // what a rule did of it is taken back alone
-                let whose = made
-                    .iter()
-                    .find(|entry| entry.id == id)
-                    .map(|entry| (entry.who.clone(), entry.why.clone()));
-                let is_of = |entry: &Entry| {
-                    whose.as_ref().is_some_and(|(who, why)| (who, why) == (&entry.who, &entry.why))
-                };
-                let open = made
-                    .into_iter()
-                    .rev()
-                    .filter(|entry| entry.table == FILES && entry.undone.is_none() && is_of(entry));
-                files.extend(open.map(|entry| (entry.key, text(&entry.old).map(str::to_owned))));
-            }
-            Self::Together(edits) => {
-                for edit in edits {
-                    edit.note_files(tx, files)?;
-                }
-            }
-            _ => {}
-        }
-        Ok(())
-    }
+/// The files that taking an entry of the history back would have others, as they were before it.
+pub(super) fn undone(tx: &mut Tx<'_>, id: Option<i64>) -> Result<Drafts> {
+    let Some(id) = id.or(tx.undoable(1)?.first().copied()) else { return Ok(Drafts::new()) };
+    let made = tx.made_together(id)?;
+    // what a rule did of it is taken back alone
+    let of = made.iter().find(|entry| entry.id == id).map(|entry| (entry.who.clone(), entry.why.clone()));
+    let open = made.into_iter().rev().filter(|entry| {
+        let is_of = of.as_ref().is_some_and(|(who, why)| (who, why) == (&entry.who, &entry.why));
+        entry.table == FILES && entry.undone.is_none() && is_of
+    });
+    Ok(open.map(|entry| (entry.key, text(&entry.old).map(str::to_owned))).collect())
 }
 
 /// The text in an entry of the history about a file.
@@ -94,7 +52,7 @@ fn cell(text: Option<&str>) -> Cell {
 }
 
 /// The text of before, if it is the one that the editor saw.
-fn before(site: &KnowledgeBase, Write { file, text, seen }: &Write) -> Result<Option<String>> {
+pub(super) fn before(site: &KnowledgeBase, Write { file, text, seen }: &Write) -> Result<Option<String>> {
     let before = rules::text(&site.rule_folder().join(file))?;
     if before.is_none() && text.is_none() {
         return Err(Error::said(Code::RulesUnknownFile, format!("there is no rule file {file}"), None));
