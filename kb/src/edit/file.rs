@@ -101,6 +101,19 @@ pub(super) fn take_back(
     Ok(Edited { id, key: entry.key.clone(), old: entry.new.clone(), new: entry.old.clone() })
 }
 
+/// Before the name of a rule file.
+const CALLED: &str = "rule file ";
+
+/// What a rule file is called among tables.
+pub(super) fn called(file: &str) -> String {
+    format!("{CALLED}{file}")
+}
+
+/// Whether something is called as a rule file is.
+pub(super) fn is_called(name: &str) -> bool {
+    name.starts_with(CALLED)
+}
+
 /// What became of a file's text, in a few words.
 pub(super) fn change(old: &Cell, new: &Cell) -> String {
     let lines = |count: usize| if count == 1 { "1 line".to_owned() } else { format!("{count} lines") };

@@ -6,7 +6,7 @@ use adit_db::edit::Edited;
 use adit_db::history::{Author, Edit as Entry};
 use adit_engine::RuleBase;
 
-use super::{file, subject};
+use super::file;
 use crate::error::Result;
 use crate::knowledge::KnowledgeBase;
 use crate::site::journal::FILES;
@@ -48,7 +48,7 @@ pub(super) fn undo(
         let undone = if is_file { file::take_back(tx, site, of, author)? } else { tx.undo(of.id, author)? };
         if of.id == id {
             let key = match &of.column {
-                Some(_) if is_file => subject(of),
+                Some(_) if is_file => file::called(&of.key),
                 Some(column) => format!("{}.{}.{column}", of.table, undone.key),
                 None => undone.key.clone(),
             };

@@ -57,7 +57,9 @@ impl Edit {
                 format!("tuning {tuning}: no {table}.{row}.{column} any more")
             }
             Self::Switch(tuning, on) => format!("tuning {tuning} is {}", if *on { "on" } else { "off" }),
-            Self::Write(Write { file, .. }) => format!("{}: {}", of_file(file), file::change(old, new)),
+            Self::Write(Write { file: name, .. }) => {
+                format!("{}: {}", file::called(name), file::change(old, new))
+            }
             Self::Undo(_) => {
                 let more = match with {
                     0 => String::new(),
@@ -65,7 +67,7 @@ impl Edit {
                     more => format!(", and {more} more that were made with it"),
                 };
                 match (row(old), row(new)) {
-                    _ if key.starts_with(FILE) => format!("undone: {key} is as it was before{more}"),
+                    _ if file::is_called(key) => format!("undone: {key} is as it was before{more}"),
                     (Some(_), None) if is_switch(old) => format!("undone: tuning {key} is off again{more}"),
                     (None, Some(_)) if is_switch(new) => format!("undone: tuning {key} is on again{more}"),
                     (Some(_), None) => format!("undone: {} is gone again{more}", called(key, old)),
@@ -77,17 +79,10 @@ impl Edit {
     }
 }
 
-/// Before the name of a rule file.
-const FILE: &str = "rule file ";
-
-fn of_file(file: &str) -> String {
-    format!("{FILE}{file}")
-}
-
 /// What an entry of the history is about.
 pub(crate) fn subject(Entry { table, key, column, .. }: &Entry) -> String {
     if table == FILES {
-        return of_file(key);
+        return file::called(key);
     }
     let column = column.as_ref().map_or_else(String::new, |column| format!(".{column}"));
     format!("{table}.{key}{column}")
