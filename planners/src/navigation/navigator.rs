@@ -91,6 +91,8 @@ pub struct Navigator<'b> {
     readings_standing: usize,
     /// Since when the robot stands, seconds.
     standing_s: f64,
+    /// When it had looked around since then, and what it saw was in the model, seconds.
+    looked_s: Option<f64>,
     /// Times that the robot withdrew since it last waited.
     back_offs: u32,
     /// When the goal was given, seconds.
@@ -205,6 +207,7 @@ impl<'b> Navigator<'b> {
             part: Vec::new(),
             readings_standing: 0,
             standing_s: 0.0,
+            looked_s: None,
             back_offs: 0,
             begun_s: 0.0,
             scans: 0,
@@ -352,8 +355,7 @@ impl<'b> Navigator<'b> {
     }
 
     pub(super) fn is_scan_complete(&self) -> bool {
-        self.readings_standing >= self.scan_readings()
-            && self.time_s() - self.standing_s >= self.settings.look_s
+        self.looked_s.is_some()
     }
 
     /// Readings that make a whole scan: all around, and no fewer than the figure for a body that measures into few directions.

@@ -139,6 +139,7 @@ const PAGES: [Page; 25] = [
         blocks: &[
             ("start 1.5,1.5 90", Use::File("orders.txt")),
             ("squeaks = true", Use::Shown),
+            ("at_once = 1", Use::Shown),
             ("nobody crosses what is wet", Use::Shown),
         ],
         databases: &[("journal", "missions.db"), ("floor_regions", "flat.db")],
@@ -146,7 +147,7 @@ const PAGES: [Page; 25] = [
     Page { file: "manual/src/cells.md", blocks: &[], databases: &[("FROM edges", "cell.db")] },
     Page {
         file: "manual/src/service.md",
-        blocks: &[("\"error\"", Use::Shown), ("\"follower\"", Use::Shown)],
+        blocks: &[("\"error\"", Use::Shown), ("\"follower\"", Use::Shown), ("\"together\"", Use::Shown)],
         databases: &[],
     },
     page("manual/src/packages.md"),

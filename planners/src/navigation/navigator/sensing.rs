@@ -19,7 +19,7 @@ impl Navigator<'_> {
         let touch = sensed.contact.filter(|_| before.is_none() || is_held);
         let (time_s, shape) = (sensed.time_s, sensed.shape);
         if sensed.is_busy || self.readings_standing == 0 {
-            self.standing_s = time_s;
+            (self.standing_s, self.looked_s) = (time_s, None);
         }
         self.readings_standing =
             if sensed.is_busy { 0 } else { self.readings_standing + sensed.readings.len() };
@@ -79,7 +79,9 @@ impl Navigator<'_> {
         if !(update.entered.is_empty() && update.removed.is_empty()) {
             self.tell(Happening::Segments { entered: update.entered, removed: update.removed });
         }
-        if self.is_scan_complete() {
+        let is_whole = self.readings_standing >= self.scan_readings();
+        if is_whole && self.time_s() - self.standing_s >= self.settings.look_s {
+            self.looked_s = Some(self.time_s());
             self.scans += 1;
             self.recognise(&part);
             self.tell(Happening::SetEstimatedPosition(*self.model.estimate()));
