@@ -37,7 +37,7 @@ pub struct Inputs {
 }
 
 impl Inputs {
-    /// Reads the map.
+    /// Reads the map, for rules that were read before.
     ///
     /// # Arguments
     /// `rule_folder` stands instead of the site's own rules; `asked` are the properties that the planner of a map that is not cut

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::time::Instant;
 
 use adit_engine::Considered;
+use adit_planners::body::Body;
 use adit_planners::geometry::{Point, Segment};
 use adit_planners::navigation::{
     Building, Drivable, Ending, Entry, Judge, Mission, Outcome, Outfit, Trip, WayFacts, draw, trip,
@@ -313,8 +314,7 @@ impl Stage<'_> {
         mut hear: impl FnMut(&Entry),
     ) -> Journal {
         let before = Instant::now();
-        let mut outfit = self.outfit;
-        outfit.model.sonar_range_m = body.range_m().unwrap_or(outfit.model.sonar_range_m);
+        let outfit = self.outfit.measuring(body.directions(), body.range_m());
         let mut noting = Noting::new(judge);
         let mut entries = Vec::new();
         let on = (std::slice::from_ref(&self.building), body.shape());

@@ -6,6 +6,7 @@ use std::time::Instant;
 
 use adit_db::history::Author;
 use adit_engine::{Considered, RuleBase};
+use adit_planners::body::Body;
 use adit_planners::geometry::{Point, Rect, Segment, polygon};
 use adit_planners::navigation::{Entry, Met, Mission, ROOM_M, Router, Stretch, draw_along, trip};
 use adit_planners::pose::Pose;
@@ -358,8 +359,8 @@ impl Missions<'_> {
     ) -> Result<(Journal, Vec<String>)> {
         let before = Instant::now();
         let (ground, shape) = (self.ground, body.shape());
-        let (_, mut outfit) = ground.stage(shape);
-        outfit.model.sonar_range_m = body.range_m().unwrap_or(outfit.model.sonar_range_m);
+        let (_, outfit) = ground.stage(shape);
+        let outfit = outfit.measuring(body.directions(), body.range_m());
         let (trip, journal, said) = self.along(number, |site, judge, entries| {
             let on = (&ground.buildings[..], shape);
             Ok(trip(body, on, (start, goal), &outfit, Some(site), judge, |entry| entries.push(entry)))

@@ -9,8 +9,10 @@ use super::State;
 use crate::error::{Code, Error, Result};
 use crate::graph::pairs::PlaceCosts;
 use crate::plan::course::{Asked, Found, NoEnd, Pathfinder};
+use crate::plan::figures;
 use crate::plan::legs::Legs;
 use crate::site::Starts;
+use crate::site::driving::Driving;
 use crate::words::suggest::did_you_mean;
 
 /// The routes that are kept, between all ends of the map, and who finds others.
@@ -49,7 +51,11 @@ impl State {
 
     /// The routes over the map as the inference has it now; `None` where it is cut into rooms, or there is none.
     pub(super) fn courses_now(&self) -> Result<Option<Courses>> {
-        let Some(course) = self.site.course() else { return Ok(None) };
+        let Some(course) = self.site.course() else {
+            // nobody reads them before a robot drives: what they may not be is said when they are edited
+            figures::driving(&self.asked(), Driving::of_rooms())?;
+            return Ok(None);
+        };
         let finder = course.pathfinder(&self.asked())?;
         let legs = Legs::new(&self.asked())?;
         let ends: Vec<String> = finder.ends().into_iter().map(|end| end.place).collect();

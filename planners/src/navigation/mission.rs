@@ -54,7 +54,7 @@ impl Outfit {
     pub fn of(robot: simulator::Settings, navigation: Settings) -> Self {
         let usual = local_model::Settings::default();
         // beams that lie closer together are not joined across as wide a gap
-        let closer = f64::from(SONAR_DIRECTIONS) / f64::from(robot.readings_a_turn);
+        let closer = f64::from(SONAR_DIRECTIONS) / f64::from(robot.readings_a_turn.max(1));
         let model = local_model::Settings {
             largest_gap_m: usual.largest_gap_m * closer.min(1.0),
             sonar_range_m: robot.sonar_range_m,
@@ -64,6 +64,17 @@ impl Outfit {
             ..usual
         };
         Self { robot, model, navigation, ..Self::default() }
+    }
+
+    /// The same for a body that measures into so many directions, and so far, metres, where it says how far.
+    #[must_use]
+    pub fn measuring(self, directions: usize, range_m: Option<f64>) -> Self {
+        let robot = simulator::Settings {
+            readings_a_turn: directions.try_into().unwrap_or(u16::MAX),
+            sonar_range_m: range_m.unwrap_or(self.robot.sonar_range_m),
+            ..self.robot
+        };
+        Self { start_sigma_m: self.start_sigma_m, ..Self::of(robot, self.navigation) }
     }
 
     /// Where a robot thinks that it is when it is switched on.

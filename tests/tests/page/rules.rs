@@ -15,7 +15,7 @@ async fn replace(browser: &Browser, from: &str, to: &str) {
     browser.run(&script).await;
 }
 
-fn own_rules() -> (TestSite, Service) {
+pub(super) fn own_rules() -> (TestSite, Service) {
     let site = TestSite::example("paper");
     site.copy_rules_and_tests("paper");
     let site = site.built();

@@ -2,11 +2,12 @@
 
 use std::time::{Duration, Instant};
 
-use adit_tests::TestSite;
 use adit_tests::browser::{Browser, Screen};
 use adit_tests::oracle::random::Chance;
 use adit_tests::service::Service;
 use serde_json::{Value, json};
+
+use crate::rules::own_rules;
 
 /// Notes each edit that the page sends, and what became of it.
 const WATCH: &str = "
@@ -60,10 +61,7 @@ fn how_long() -> Duration {
 
 #[tokio::test(flavor = "multi_thread")]
 async fn of_random_edits_of_two_people_none_is_lost_and_none_saved_over_unseen() {
-    let site = TestSite::example("paper");
-    site.copy_rules_and_tests("paper");
-    let site = site.built();
-    let service = Service::start(&site);
+    let (site, service) = own_rules();
     let browser = Browser::open(&service.page("#rules?file=rooms.rhai"), Screen::Desktop).await;
     browser.says("#rules-name", "rooms.rhai").await;
     browser.run(WATCH).await;

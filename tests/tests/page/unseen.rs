@@ -9,6 +9,7 @@ use adit_tests::oracle::random::Chance;
 use adit_tests::service::{Service, request};
 use serde_json::json;
 
+use crate::rules::own_rules;
 use crate::{at_a_desk, hardness_of};
 
 const ENTER: &str = "\u{e007}";
@@ -221,10 +222,7 @@ async fn a_form_that_is_sent_twice_tells_once() {
 /// The second of two saves met the version that the first had made, and the page said that somebody else had saved.
 #[tokio::test(flavor = "multi_thread")]
 async fn rules_are_saved_once_however_often_the_keys_are_pressed() {
-    let site = TestSite::example("paper");
-    site.copy_rules_and_tests("paper");
-    let site = site.built();
-    let service = Service::start(&site);
+    let (site, service) = own_rules();
     let browser = Browser::open(&service.page("#rules?file=rooms.rhai"), Screen::Desktop).await;
     browser.says("#rules-name", "rooms.rhai").await;
     browser.run("const area = document.querySelector('#rules textarea'); area.focus(); area.setSelectionRange(0, 0)").await;

@@ -277,7 +277,7 @@ pub struct VersionsAnswer {
 
 #[derive(Serialize, ToSchema)]
 struct VersionOf {
-    /// Names its text.
+    /// Names the text: whoever saves another one says which was read.
     version: Option<String>,
     /// The text; null where there was no file.
     text: Option<String>,
