@@ -47,12 +47,13 @@ export function lines(before, after) {
   return [...found, ...same(now.length - tail, now.length)];
 }
 
-/** What became of a text in a few words: `2 lines new, 1 gone`. */
+/** What became of a text in a few words: `2 lines in place of 1`. */
 export function inWords(before, after) {
   const all = lines(before, after);
   const of = (kind) => all.filter((line) => line.kind === kind).length;
   const [more, gone] = [of('new'), of('gone')];
   const noun = (n) => `${n} ${n === 1 ? 'line' : 'lines'}`;
+  if (more && more === gone) return `${noun(more)} changed`;
   if (more && gone) return `${noun(more)} in place of ${gone}`;
   return more ? `${noun(more)} more` : gone ? `${noun(gone)} fewer` : 'as it was';
 }

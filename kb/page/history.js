@@ -60,7 +60,7 @@ async function load() {
   try {
     const { edits } = await get(path('/api/history', { limit: shown + 1 }));
     const more = edits.length > shown ? button('Show earlier ones', () => { shown += PAGE; return load(); }) : null;
-    const none = el('p', { class: 'card', text: 'Nothing was edited yet. What is tuned on the map’s page is kept here, with who, when and why.' });
+    const none = el('p', { class: 'card', text: 'Nothing was edited yet. What is edited is kept here, with who, when and why.' });
     const undoing = new Set(edits.map(({ undone }) => undone));
     const rows = together(edits.slice(0, shown)).map((entries) => row(entries, undoing));
     fill(byId('history'), edits.length ? el('div', { class: 'card' }, grid('History', ['when', 'what', ''], rows), more) : none);

@@ -127,7 +127,8 @@ pub(super) fn change(old: &Cell, new: &Cell) -> String {
                 (0, 0) => "lines in another order".to_owned(),
                 (more, 0) => format!("{} more", lines(more)),
                 (0, gone) => format!("{} fewer", lines(gone)),
-                (more, gone) => format!("{} in place of {}", lines(more), lines(gone)),
+                (more, gone) if more == gone => format!("{} changed", lines(more)),
+                (more, gone) => format!("{} in place of {gone}", lines(more)),
             }
         }
         (None, None) => String::new(),
@@ -159,7 +160,7 @@ mod tests {
         let said = |old: Option<&str>, new: Option<&str>| change(&cell(old), &cell(new));
         assert_eq!(said(None, Some("a\nb\n")), "new, 2 lines");
         assert_eq!(said(Some("a\n"), None), "gone, 1 line");
-        assert_eq!(said(Some("a\nb\n"), Some("a\nc\nd\n")), "2 lines in place of 1 line");
+        assert_eq!(said(Some("a\nb\n"), Some("a\nc\nd\n")), "2 lines in place of 1");
         assert_eq!(said(Some("a\nb\n"), Some("a\nb\nb\n")), "1 line more");
         assert_eq!(said(Some("a\nb\n"), Some("b\na\n")), "lines in another order");
         assert_eq!(said(Some("a\n"), Some("a\n")), "as it was");

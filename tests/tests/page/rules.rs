@@ -59,7 +59,7 @@ async fn a_saved_rule_is_in_force_and_a_file_edited_elsewhere_is_followed() {
     browser.says("#rules-result", "Looks right").await;
     until_it_may_be_saved(&browser).await;
     browser.click("#save").await;
-    browser.says("#saved", "Saved: rooms.rhai: 1 line in place of 1").await;
+    browser.says("#saved", "Saved: rooms.rhai: 1 line changed").await;
     assert!(site.read("rules/rooms.rhai").contains("Tuned on the page"));
 
     // With a text editor: a mistake is said, and mended by mending the file.
