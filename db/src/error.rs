@@ -145,6 +145,9 @@ pub enum Error {
     /// A query of the user that took too long.
     #[error("the query was stopped after {0:?}")]
     Deadline(std::time::Duration),
+    /// A site in PostgreSQL.
+    #[error(transparent)]
+    Postgres(#[from] crate::postgres::Failure),
     /// Whatever else SQLite says.
     #[error("{0}")]
     Sql(#[from] sqlx::Error),

@@ -11,7 +11,7 @@ use std::rc::Rc;
 use std::{ptr, slice};
 
 use libsqlite3_sys::{
-    SQLITE_BLOB, SQLITE_DBCONFIG_DEFENSIVE, SQLITE_DBCONFIG_TRUSTED_SCHEMA, SQLITE_DENY, SQLITE_DONE,
+    SQLITE_BLOB, SQLITE_DBCONFIG_DEFENSIVE, SQLITE_DBCONFIG_ENABLE_TRIGGER, SQLITE_DBCONFIG_TRUSTED_SCHEMA, SQLITE_DENY, SQLITE_DONE,
     SQLITE_FLOAT, SQLITE_FUNCTION, SQLITE_INTEGER, SQLITE_LIMIT_ATTACHED, SQLITE_LIMIT_COLUMN,
     SQLITE_LIMIT_COMPOUND_SELECT, SQLITE_LIMIT_EXPR_DEPTH, SQLITE_LIMIT_FUNCTION_ARG, SQLITE_LIMIT_LENGTH,
     SQLITE_LIMIT_LIKE_PATTERN_LENGTH, SQLITE_LIMIT_SQL_LENGTH, SQLITE_LIMIT_TRIGGER_DEPTH,
@@ -66,6 +66,15 @@ pub(crate) fn restrict(handle: &mut LockedSqliteHandle<'_>) {
     // SAFETY: takes any number, at any time.
     unsafe { sqlite3_hard_heap_limit64(HEAP) };
     functions::replace(handle);
+}
+
+/// Has the triggers of a database fire, or not; those of the connection itself fire all the same.
+pub(crate) fn fire_triggers(handle: &mut LockedSqliteHandle<'_>, on: bool) {
+    let database = handle.as_raw_handle().as_ptr();
+    // SAFETY: `handle` locks an open connection; the setting takes an int and a pointer to int, which may be null.
+    unsafe {
+        sqlite3_db_config(database, SQLITE_DBCONFIG_ENABLE_TRIGGER, c_int::from(on), ptr::null_mut::<c_int>())
+    };
 }
 
 /// Bytes that SQLite holds, for everybody's connections.

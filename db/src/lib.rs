@@ -32,6 +32,7 @@ pub mod measure;
 mod migrate;
 pub mod mission;
 pub mod place;
+pub mod postgres;
 pub mod query;
 mod reason;
 pub mod relation;

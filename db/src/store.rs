@@ -11,6 +11,7 @@ use crate::doctor::{self, Health};
 use crate::error::{Error, Result};
 use crate::history;
 use crate::migrate::{self, Kind, STEPS, VERSION};
+use crate::postgres::{Entry, File, Replica};
 use crate::query::{self, Answer, Limits};
 use crate::transaction::Tx;
 
@@ -26,6 +27,8 @@ pub struct Store {
     connection: Connection,
     /// Whether it was opened for writing, and is one of ours.
     writes: bool,
+    /// What it is a copy of.
+    replica: Option<Box<Replica>>,
 }
 
 impl Store {
@@ -74,7 +77,7 @@ impl Store {
         }
         let options = options(path, PATIENCE)?.read_only(true);
         let open = || -> Result<_> {
-            let mut store = Self { connection: Connection::open(path, &options)?, writes: false };
+            let mut store = Self { connection: Connection::open(path, &options)?, writes: false, replica: None };
             let kind = store.run(async |connection| migrate::kind(connection).await)?;
             Ok((store, kind))
         };
@@ -94,7 +97,7 @@ impl Store {
 
     fn writable(path: &Path, create: bool, patience: Duration) -> Result<Self> {
         let options = options(path, patience)?.create_if_missing(create);
-        let mut store = Self { connection: Connection::open(path, &options)?, writes: false };
+        let mut store = Self { connection: Connection::open(path, &options)?, writes: false, replica: None };
         store.run(async |connection| {
             let version: String =
                 sqlx::query_scalar("SELECT sqlite_version()").fetch_one(&mut *connection).await?;
@@ -120,11 +123,111 @@ impl Store {
         &mut self,
         work: impl FnOnce(&mut Tx<'_>) -> std::result::Result<T, E>,
     ) -> std::result::Result<T, E> {
+        if let Some(replica) = &self.replica {
+            replica.may_write()?;
+        }
         let mut tx = Tx::begin(&mut self.connection, "BEGIN IMMEDIATE")?;
         let value = work(&mut tx)?;
         tx.run(history::join)?;
-        tx.commit()?;
+        if let Some(replica) = &mut self.replica
+            && let Some(pending) = tx.run(async |connection| replica.pending(connection).await)?
+        {
+            replica.publish(&pending)?;
+            tx.commit()?;
+            replica.accept(pending);
+        } else {
+            tx.commit()?;
+        }
         Ok(value)
+    }
+
+    /// Opens the copy that a tie to PostgreSQL was made with: each transaction is kept there before it is committed here. Such a
+    /// copy can be made anew at any time, so nothing of it is synced to the disk.
+    pub fn open_copy(path: impl AsRef<Path>, replica: Replica) -> Result<Self> {
+        let mut store = Self::open(path)?;
+        store.connection.execute("PRAGMA synchronous = OFF")?;
+        let mut replica = Box::new(replica);
+        store.run(async |connection| replica.begin(connection).await)?;
+        store.replica = Some(replica);
+        Ok(store)
+    }
+
+    /// Whether it is a copy of a site in PostgreSQL.
+    pub fn is_copy(&self) -> bool {
+        self.replica.is_some()
+    }
+
+    /// Asks for the right to write; `false` where another service has it. It is given up with the next transaction, or by
+    /// [`Store::cede`]. Of what is no copy it is always there.
+    pub fn lead(&mut self) -> Result<bool> {
+        self.replica.as_mut().map_or(Ok(true), |replica| replica.lead())
+    }
+
+    /// Gives the right to write up.
+    pub fn cede(&mut self) {
+        if let Some(replica) = &mut self.replica {
+            replica.cede();
+        }
+    }
+
+    /// Has the next transaction keep the site's files, which are these; `false` where they are those that are kept.
+    pub fn stage_files(&mut self, files: Vec<File>) -> bool {
+        self.replica.as_mut().is_some_and(|replica| replica.stage(files))
+    }
+
+    /// What other services wrote that this copy does not have yet, in its order, or the first part of that.
+    ///
+    /// # Arguments
+    /// `at_once`: also where the database was out of reach half a second ago.
+    pub fn waiting(&mut self, at_once: bool) -> Result<Vec<Entry>> {
+        self.replica.as_mut().map_or(Ok(Vec::new()), |replica| replica.waiting(at_once))
+    }
+
+    /// Takes what another service wrote into the copy.
+    ///
+    /// # Arguments
+    /// `step` follows it, as who wrote it did: what that writes is compared with what was written.
+    ///
+    /// # Returns
+    /// What the step gave; `None` where it did not come to the same, and all that it wrote is taken back.
+    pub fn take<T, E: From<Error>>(
+        &mut self,
+        entry: &Entry,
+        step: impl FnOnce(&mut Tx<'_>) -> std::result::Result<Option<T>, E>,
+    ) -> std::result::Result<Option<T>, E> {
+        let Some(replica) = &mut self.replica else { return Ok(None) };
+        let mut tx = Tx::begin(&mut self.connection, "BEGIN IMMEDIATE")?;
+        tx.run(async |connection| replica.put_rows(connection, entry).await)?;
+        tx.execute("SAVEPOINT followed")?;
+        let mut followed = step(&mut tx)?;
+        if followed.is_some() {
+            tx.run(crate::history::join)?;
+            if !tx.run(async |connection| replica.is_reached(connection, entry).await)? {
+                followed = None;
+            }
+        }
+        if followed.is_none() {
+            tx.execute("ROLLBACK TO followed")?;
+        }
+        tx.run(async |connection| replica.put_state(connection, entry).await)?;
+        tx.commit()?;
+        replica.took(entry);
+        Ok(followed)
+    }
+
+    /// Makes the copy's rows those that the site now has: where its log does not reach back far enough.
+    ///
+    /// # Returns
+    /// The site's files.
+    pub fn take_whole(&mut self) -> Result<Vec<File>> {
+        let Some(replica) = &mut self.replica else { return Ok(Vec::new()) };
+        let entry = replica.whole()?;
+        let mut tx = Tx::begin(&mut self.connection, "BEGIN IMMEDIATE")?;
+        tx.run(async |connection| replica.put_rows(connection, &entry).await)?;
+        tx.run(async |connection| replica.put_state(connection, &entry).await)?;
+        tx.commit()?;
+        replica.took_whole(&entry);
+        Ok(replica.files())
     }
 
     /// Does `work` as [`Store::transaction`] would, and takes everything back.
@@ -192,7 +295,7 @@ impl Store {
         self.connection.beside(async |path| query::answer(path, sql, limits).await)
     }
 
-    fn run<T>(&mut self, work: impl AsyncFnOnce(&mut SqliteConnection) -> Result<T>) -> Result<T> {
+    pub(crate) fn run<T>(&mut self, work: impl AsyncFnOnce(&mut SqliteConnection) -> Result<T>) -> Result<T> {
         self.connection.run(work)
     }
 }

@@ -25,6 +25,10 @@ impl<'s> Tx<'s> {
         self.connection.run(work)
     }
 
+    pub(crate) fn execute(&mut self, sql: &'static str) -> Result<()> {
+        self.connection.execute(sql)
+    }
+
     pub(crate) fn commit(mut self) -> Result<()> {
         self.connection.execute("COMMIT")?;
         self.is_committed = true;
