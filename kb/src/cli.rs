@@ -6,6 +6,7 @@ mod beside;
 mod body;
 mod build;
 mod close;
+mod copy;
 mod curve;
 mod demo;
 mod doctor;
@@ -121,6 +122,8 @@ pub enum Verb {
     Undo(tune::UndoArgs),
     /// Serve the site: HTTP, live events, and the page where experts tune it
     Serve(serve::ServeArgs),
+    /// Copy a site, with its whole history, into PostgreSQL or out of it
+    Copy(copy::CopyArgs),
     /// Vehicles that speak VDA 5050 drive the routes of a served site (the program `adit-fleet`)
     Fleet(beside::BesideArgs),
     /// A ROS 2 node that plans routes of a served site, as Nav2's planner and route server do (the program `adit-ros`)
@@ -176,6 +179,7 @@ pub fn run(cli: &Cli) -> ExitCode {
         Verb::History(args) => (args.site.json, tune::history(args).map(|()| 0)),
         Verb::Undo(args) => (args.site.json, tune::undo(args).map(|()| 0)),
         Verb::Serve(args) => (args.site.json, serve::run(args).map(|()| 0)),
+        Verb::Copy(args) => (args.json, copy::run(args).map(|()| 0)),
         Verb::Fleet(args) => (false, beside::run("fleet", args)),
         Verb::Ros(args) => (false, beside::run("ros", args)),
         Verb::Lsp(args) => (false, lsp::run(args).map(|()| 0)),

@@ -6,6 +6,7 @@ mod once;
 mod renewal;
 pub(crate) mod report;
 mod routes;
+mod shared;
 mod trees;
 mod view;
 pub mod watch;
@@ -28,8 +29,10 @@ use crate::site::rules::Drafts;
 use crate::state::State;
 use crate::words::progress::{Silent, Stage};
 pub(crate) use memory::Memory;
-use memory::{Accepted, Promptness};
+use memory::{Accepted, Followed, Promptness};
 pub use renewal::Renewal;
+use shared::SharedSite;
+pub(crate) use shared::copy;
 pub use view::{View, Ways};
 
 /// A built site, ready for many edits. What it writes is what [`KnowledgeBase::edit`] would write.
@@ -44,6 +47,8 @@ pub struct Live {
     is_prepared: bool,
     /// The newest entry of the history that is known.
     newest: i64,
+    /// Where the site is in PostgreSQL.
+    shared: Option<SharedSite>,
 }
 
 /// What an edit did.
@@ -95,8 +100,17 @@ impl Live {
             Some(memory) => memory,
             None => site.build_in(&mut store, &inputs, &Silent)?.0,
         };
+        Self::of(site, store, memory, None)
+    }
+
+    fn of(
+        site: Arc<KnowledgeBase>,
+        mut store: Store,
+        memory: Memory,
+        shared: Option<SharedSite>,
+    ) -> Result<Self> {
         let newest = store.snapshot(|tx| tx.history(1))?.first().map_or(0, |entry| entry.id);
-        let mut live = Self { site, store, memory, is_prepared: false, newest };
+        let mut live = Self { site, store, memory, is_prepared: false, newest, shared };
         live.ready();
         Ok(live)
     }
@@ -146,10 +160,13 @@ impl Live {
 
     /// Keeps a query of somebody's under a name, or takes it away; whether there is, or was, one.
     pub fn keep_query(&mut self, name: &str, query: Option<(&str, &str)>) -> Result<bool> {
-        self.store.transaction(|tx| match query {
+        self.lead()?;
+        let kept = self.store.transaction(|tx| match query {
             Some((query, who)) => Ok(tx.save_query(name, query, who).map(|()| true)?),
             None => Ok(tx.remove_query(name)?),
-        })
+        });
+        self.store.cede();
+        kept
     }
 
     /// Forgets what is in memory, and derives it from files and tables.
@@ -163,6 +180,9 @@ impl Live {
         self.site.needs_folder()?;
         if !self.files_of(edit)?.is_empty() {
             return self.edit_with_files(&KnowledgeBase::clone(&self.site), edit, author);
+        }
+        if self.store.is_copy() {
+            return self.edit_shared(edit, author);
         }
         if let Some(outcome) = self.follow(Some((edit, author)))? {
             return Ok(outcome);
@@ -205,11 +225,16 @@ impl Live {
     /// Derives all anew, since others edited the tables; with what they did.
     fn take_up(&mut self) -> Result<Outcome> {
         let outcome = self.reopen()?;
+        Ok(Outcome { meanwhile: self.edited()?, ..outcome })
+    }
+
+    /// What others edited since.
+    fn edited(&mut self) -> Result<Meanwhile> {
         let mut edits = self.store.snapshot(|tx| tx.history(ENTRIES))?;
         edits.retain(|entry| entry.id > self.newest);
         edits.reverse();
         self.newest = edits.last().map_or(self.newest, |entry| entry.id);
-        Ok(Outcome { meanwhile: Meanwhile::Edited(edits), ..outcome })
+        Ok(Meanwhile::Edited(edits))
     }
 
     /// Writes what follows from an edit, or from the clock alone, in one transaction; `None` where somebody else edited the
@@ -227,19 +252,11 @@ impl Live {
         match followed {
             Ok(None) => Ok(None),
             Ok(Some(followed)) => {
-                let over = memory.state.told.is_over(&site.clock()).then(|| memory.state.told.clone());
-                let accepted = memory.accept(followed);
-                let ended = over.map(|before| memory.state.told.ended_since(&before));
-                let meanwhile = Meanwhile::Ended(ended.unwrap_or_default());
-                self.newest = accepted.done.as_ref().map_or(self.newest, |done| done.id);
-                if !accepted.reacted.is_empty() {
-                    let last = self.store.snapshot(|tx| tx.history(1))?;
-                    self.newest = last.first().map_or(self.newest, |entry| entry.id);
+                let outcome = self.accept(followed)?;
+                if let Some(shared) = &mut self.shared {
+                    shared.others = None;
                 }
-                if accepted.anew {
-                    self.ready();
-                }
-                Ok(Some(Outcome { meanwhile, ..self.outcome(accepted) }))
+                Ok(Some(outcome))
             }
             Err(error) => {
                 memory.take_back()?;
@@ -248,9 +265,30 @@ impl Live {
         }
     }
 
+    /// Makes part of what is known what is committed.
+    fn accept(&mut self, followed: Followed) -> Result<Outcome> {
+        let Self { site, memory, .. } = self;
+        let over = memory.state.told.is_over(&site.clock()).then(|| memory.state.told.clone());
+        let accepted = memory.accept(followed);
+        let ended = over.map(|before| memory.state.told.ended_since(&before));
+        let meanwhile = Meanwhile::Ended(ended.unwrap_or_default());
+        self.newest = accepted.done.as_ref().map_or(self.newest, |done| done.id);
+        if !accepted.reacted.is_empty() {
+            let last = self.store.snapshot(|tx| tx.history(1))?;
+            self.newest = last.first().map_or(self.newest, |entry| entry.id);
+        }
+        if accepted.anew {
+            self.ready();
+        }
+        Ok(Outcome { meanwhile, ..self.outcome(accepted) })
+    }
+
     /// Follows what happened without this program: edits of other programs, facts that ended, hours that began or
     /// ended. `None` where nothing did.
     pub fn catch_up(&mut self) -> Result<Option<Outcome>> {
+        if self.store.is_copy() {
+            return self.catch_up_shared();
+        }
         let memory = &self.memory;
         if !self.store.snapshot(|tx| memory.is_of(tx))? {
             return self.take_up().map(Some);
@@ -298,6 +336,9 @@ impl Live {
     /// Derives everything from files and tables, writes it, and takes it into memory.
     fn build_anew(&mut self, site: Arc<KnowledgeBase>) -> Result<Outcome> {
         let inputs = site.inputs(&Silent)?;
+        if self.store.is_copy() {
+            return self.build_shared(site, &inputs);
+        }
         let (memory, report) = site.build_in(&mut self.store, &inputs, &Silent)?;
         (self.site, self.memory) = (site, memory);
         self.ready();

@@ -8,6 +8,7 @@ mod event;
 mod fault;
 mod follower;
 mod gate;
+mod hints;
 mod http;
 mod listen;
 mod meter;
@@ -25,10 +26,11 @@ mod waiting;
 
 use std::sync::Arc;
 use std::sync::mpsc::sync_channel;
+use std::thread;
 use std::time::{Duration, Instant};
 
 use crate::error::{Code, Error, Result};
-use crate::live::Live;
+use crate::live::{self, Live};
 use settings::Settings;
 use shared::Shared;
 use token::Tokens;
@@ -44,9 +46,21 @@ const FAREWELL: Duration = Duration::from_secs(10);
 ///
 /// # Arguments
 /// `ready` hears the address once requests are answered.
-pub fn run(settings: Settings, ready: impl FnOnce(std::net::SocketAddr)) -> Result<bool> {
+pub fn run(mut settings: Settings, ready: impl FnOnce(std::net::SocketAddr)) -> Result<bool> {
+    let mut copy = None;
+    let mut live = match settings.shared.clone() {
+        Some(place) => {
+            let folder = tempfile::tempdir().map_err(|error| Error::io("make", &std::env::temp_dir(), &error))?;
+            let database = folder.path().join("site.db");
+            let name = settings.shared_name(&place);
+            let replica = live::copy(&place, &name, (&settings.folder, &database))?;
+            (settings.database, copy) = (Some(database), Some((folder, place, name)));
+            let again = settings.clone();
+            Live::open_shared(replica, move || again.open())?
+        }
+        None => Live::open(settings.open()?)?,
+    };
     let tokens = tokens(&settings)?;
-    let mut live = Live::open(settings.open()?)?;
     live.share()?;
     live.prepare();
     let (jobs, waiting) = sync_channel(QUEUE);
@@ -54,6 +68,10 @@ pub fn run(settings: Settings, ready: impl FnOnce(std::net::SocketAddr)) -> Resu
     let desk = desk::start(live, Arc::clone(&shared), waiting)?;
     let watcher = routes::start(Arc::clone(&shared))?;
     let porter = porter::start(Arc::clone(&shared))?;
+    let hints = match &copy {
+        Some((_, place, name)) => Some(hints::start(Arc::clone(&shared), place.clone(), name.clone())?),
+        None => None,
+    };
     let served = listen::serve(&shared, ready);
     shared.ending.send_replace(true);
     let began = Instant::now();
@@ -65,9 +83,12 @@ pub fn run(settings: Settings, ready: impl FnOnce(std::net::SocketAddr)) -> Resu
         std::thread::sleep(Duration::from_millis(20));
     }
     let (desk, watcher, porter) = (desk.join(), watcher.join(), porter.join());
+    hints.map(thread::JoinHandle::join);
     served?;
     shared.stop_reading();
     match (desk, watcher, porter) {
+        // a copy goes with its folder
+        (Ok(_), Ok(()), Ok(())) if copy.is_some() => Ok(true),
         (Ok(live), Ok(()), Ok(())) => live.unshare(),
         _ => Err(Error::said(Code::ServeEnded, "the service ended by a defect of its own", None)),
     }

@@ -11,6 +11,7 @@ pub(crate) mod lint;
 pub(crate) mod over;
 pub(crate) mod robots;
 pub(crate) mod rules;
+pub(crate) mod shared;
 pub(crate) mod sheet;
 pub(crate) mod shipped;
 pub(crate) mod states;

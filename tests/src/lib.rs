@@ -1,6 +1,7 @@
 //! What the journeys share: the built program, sites in a temporary folder, and the clients that users have.
 
 pub mod browser;
+pub mod cluster;
 pub mod floor;
 pub mod fuzz;
 pub mod lock;

@@ -11,7 +11,7 @@ use super::place::{CONNECTING, Place};
 use crate::error::{Error, Result};
 
 /// How long one piece of work may take; a whole site takes longer than an edit.
-const WORK: Duration = Duration::from_secs(60);
+const WORK: Duration = Duration::from_mins(1);
 
 /// After a failure to connect nobody tries again for so long, but for who must.
 const REST: Duration = Duration::from_millis(500);

@@ -77,6 +77,13 @@ impl Place {
     }
 }
 
+impl std::fmt::Debug for Place {
+    /// Without a password.
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{:?} of {}", self.site, self.shown())
+    }
+}
+
 /// How long a connection is waited for.
 pub(super) const CONNECTING: Duration = Duration::from_secs(4);
 

@@ -53,7 +53,7 @@ pub(super) fn make(link: &mut Link, template: &Template) -> Result<()> {
 
 /// All that makes the tables and views.
 fn script(template: &Template) -> String {
-    let mut sql = SHARED.to_owned();
+    let mut parts = vec![SHARED.to_owned()];
     for table in template.tables.values().filter(|table| table.ours) {
         let columns: Vec<String> = table
             .columns
@@ -65,15 +65,15 @@ fn script(template: &Template) -> String {
             .collect();
         let name = identifier(&table.name);
         let key = keyed(&table.key);
-        sql += &format!(
-            "CREATE TABLE adit.{name} (\n  site text NOT NULL,\n{},\n  PRIMARY KEY ({key})\n);\n",
-            columns.join(",\n")
-        );
-        for columns in &table.indexes {
-            sql += &format!("CREATE INDEX ON adit.{name} ({});\n", keyed(columns));
-        }
+        let columns = columns.join(",\n");
+        parts.push(format!(
+            "CREATE TABLE adit.{name} (\n  site text NOT NULL,\n{columns},\n  PRIMARY KEY ({key})\n);"
+        ));
+        let index = |columns: &Vec<String>| format!("CREATE INDEX ON adit.{name} ({});", keyed(columns));
+        parts.extend(table.indexes.iter().map(index));
     }
-    sql + VIEWS + &format!("\nINSERT INTO adit.version VALUES (1, {VERSION});\n")
+    parts.extend([VIEWS.to_owned(), format!("INSERT INTO adit.version VALUES (1, {VERSION});\n")]);
+    parts.join("\n")
 }
 
 /// Columns behind the site's name.

@@ -134,10 +134,9 @@ impl Template {
                 continue;
             }
             let known = self.tables.get(&name);
-            let ours = strict && (all_ours || known.is_some_and(|known| known.ours));
-            let table = match known {
-                Some(known) if ours => known.clone(),
-                _ => describe(connection, name.clone(), ours, without_rowid).await?,
+            let table = match known.filter(|known| known.ours && strict) {
+                Some(known) => known.clone(),
+                None => describe(connection, name.clone(), strict && all_ours, without_rowid).await?,
             };
             tables.insert(name, table);
         }
@@ -176,7 +175,7 @@ impl Template {
 async fn describe(
     connection: &mut SqliteConnection,
     name: String,
-    ours: bool,
+    may_be_ours: bool,
     without_rowid: bool,
 ) -> Result<Table> {
     let sql = "SELECT name, type, \"notnull\", pk FROM pragma_table_xinfo(?) WHERE hidden = 0 ORDER BY cid";
@@ -186,6 +185,7 @@ async fn describe(
         rows.iter().filter(|(.., key)| *key > 0).map(|(column, _, _, key)| (*key, column.clone())).collect();
     key.sort();
     let mut key: Vec<String> = key.into_iter().map(|(_, column)| column).collect();
+    let ours = may_be_ours && !key.is_empty();
     if !ours && !without_rowid {
         let is_free = |name: &&str| !rows.iter().any(|(column, ..)| column.eq_ignore_ascii_case(name));
         key = ["rowid", "_rowid_", "oid"].into_iter().filter(is_free).take(1).map(str::to_owned).collect();

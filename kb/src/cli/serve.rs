@@ -4,6 +4,7 @@ use std::net::SocketAddr;
 use std::path::PathBuf;
 use std::time::Duration;
 
+use adit_db::postgres::Place;
 use clap::{Args, Subcommand};
 
 use super::args::SiteArgs;
@@ -21,6 +22,10 @@ use crate::site::Site;
 pub struct ServeArgs {
     #[command(flatten)]
     pub site: SiteArgs,
+    /// The site is in PostgreSQL, as `postgres://USER@HOST/DATABASE?site=NAME`: other services may be on it as well. Its files are put
+    /// into the folder; without `site` it is called as the folder is
+    #[arg(long, value_name = "URL", env = "ADIT_DATABASE", hide_env_values = true, conflicts_with_all = ["db", "rules"])]
+    pub database: Option<String>,
     /// Where to listen; port 0 takes any free one. To be reached from elsewhere the site needs tokens
     #[arg(long, value_name = "ADDRESS", default_value = "127.0.0.1:7373")]
     pub listen: SocketAddr,
@@ -87,6 +92,7 @@ pub fn run(args: &ServeArgs) -> Result<()> {
     let settings = Settings {
         folder: args.site.site.clone(),
         database: args.site.db.clone(),
+        shared: args.database.as_deref().map(Place::parse).transpose()?,
         rules: args.site.rules.clone(),
         listen: args.listen,
         hosts: args.hosts.clone(),
@@ -98,13 +104,17 @@ pub fn run(args: &ServeArgs) -> Result<()> {
         log: remark,
         complete: lsp::propose,
     };
-    let site = settings.open()?;
-    let name = &site.site().name;
+    let name = match &settings.shared {
+        Some(place) => format!("{} in {}", settings.shared_name(place), place.shown()),
+        None => settings.open()?.site().name.clone(),
+    };
+    let again = settings.clone();
     let is_whole = serve::run(settings, |address| {
         line(&format!("listening on http://{address}/"));
         remark(&format!("{name} is served; Ctrl-C ends it"));
     })?;
     if !is_whole {
+        let site = again.open()?;
         let database = site.database().display();
         remark(&format!(
             "another program still reads {database}, or the disk is full: a copy needs {database}-wal beside it, until `adit build`"

@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 use std::fmt;
 
+use adit_db::postgres::Failure;
 use axum::http::StatusCode;
 use serde::{Serialize, Serializer};
 use utoipa::openapi::schema::{ObjectBuilder, Schema, Type};
@@ -203,6 +204,33 @@ codes! {
 
     /// A planner could not give its facts.
     PlannerFailed = "planner/failed", UNPROCESSABLE_ENTITY;
+
+    /// A service's copy of a site in PostgreSQL does not take what another one wrote; it is made anew.
+    PostgresCopy = "postgres/copy", SERVICE_UNAVAILABLE;
+    /// The right to edit went to another service; nothing of the edit was kept.
+    PostgresFenced = "postgres/fenced", SERVICE_UNAVAILABLE;
+    /// The site's files cannot be kept in PostgreSQL, or the folder's are not those that are.
+    PostgresFiles = "postgres/files", BAD_REQUEST;
+    /// Another service edits the site; try again.
+    PostgresHeld = "postgres/held", SERVICE_UNAVAILABLE;
+    /// PostgreSQL does not let this user in: password, user or database are wrong.
+    PostgresLetIn = "postgres/let-in", INTERNAL_SERVER_ERROR;
+    /// This user of PostgreSQL has no right to do that.
+    PostgresRights = "postgres/rights", INTERNAL_SERVER_ERROR;
+    /// PostgreSQL has a site of this name already.
+    PostgresSiteExists = "postgres/site-exists", CONFLICT;
+    /// PostgreSQL refused a statement.
+    PostgresSql = "postgres/sql", INTERNAL_SERVER_ERROR;
+    /// The connection broke while an edit was kept: look whether it was made before you make it again.
+    PostgresUnknownOutcome = "postgres/unknown-outcome", SERVICE_UNAVAILABLE;
+    /// PostgreSQL has no site of this name.
+    PostgresUnknownSite = "postgres/unknown-site", NOT_FOUND;
+    /// PostgreSQL cannot be reached; edits are made again when it can.
+    PostgresUnreachable = "postgres/unreachable", SERVICE_UNAVAILABLE;
+    /// It is no URL of a PostgreSQL database.
+    PostgresUrl = "postgres/url", BAD_REQUEST;
+    /// The sites in PostgreSQL are of another version of the program.
+    PostgresVersion = "postgres/version", INTERNAL_SERVER_ERROR;
 
     /// The verb is a program of its own, and does not lie beside `adit`.
     ProgramMissing = "program/missing", NOT_FOUND;
@@ -525,8 +553,28 @@ impl From<&adit_db::Error> for Code {
             | Error::NotANumber { .. } => Self::DatabaseRefused,
             Error::Query(_) | Error::Deadline(_) => Self::SqlRefused,
             Error::Locked(_) => Self::DatabaseLocked,
+            Error::Postgres(failure) => Self::from(failure),
             Error::Taken { .. } => Self::TableTaken,
             _ => Self::Database,
+        }
+    }
+}
+
+impl From<&Failure> for Code {
+    fn from(failure: &Failure) -> Self {
+        match failure {
+            Failure::Url(_) => Self::PostgresUrl,
+            Failure::LetIn { .. } => Self::PostgresLetIn,
+            Failure::Rights { .. } => Self::PostgresRights,
+            Failure::NoSites(_) | Failure::UnknownSite { .. } => Self::PostgresUnknownSite,
+            Failure::SiteExists { .. } => Self::PostgresSiteExists,
+            Failure::Version { .. } => Self::PostgresVersion,
+            Failure::Held(_) => Self::PostgresHeld,
+            Failure::Fenced(_) => Self::PostgresFenced,
+            Failure::UnknownOutcome(_) => Self::PostgresUnknownOutcome,
+            Failure::TooFarBehind(_) | Failure::Copy { .. } => Self::PostgresCopy,
+            Failure::Sql(_) => Self::PostgresSql,
+            _ => Self::PostgresUnreachable,
         }
     }
 }

@@ -1,6 +1,7 @@
 //! The number of the knowledge base's state, which stands on every answer and grows with every change that took.
 
 use std::hash::{Hash, Hasher};
+use std::path::Path;
 
 use adit_db::Tx;
 use adit_engine::RuleBase;
@@ -36,7 +37,10 @@ impl Basis {
         let mut hasher = SipHasher13::new();
         (env!("CARGO_PKG_VERSION"), site.texts(), world.fingerprint()).hash(&mut hasher);
         for rule in rules.rules() {
-            (rule.name(), rule.version(), rule.file(), rule.line()).hash(&mut hasher);
+            // the same site in another folder is the same
+            let file = Path::new(rule.file());
+            let file = file.strip_prefix(&site.folder).unwrap_or(file);
+            (rule.name(), rule.version(), file, rule.line()).hash(&mut hasher);
         }
         Self(hasher)
     }

@@ -92,10 +92,23 @@ pub struct Accepted {
 impl Memory {
     /// What was built; `None` where it is not built as files and tables now stand.
     pub fn open(tx: &mut Tx<'_>, site: &Arc<KnowledgeBase>, inputs: &Arc<Inputs>) -> Result<Option<Self>> {
+        if !tx.stale_marks()?.is_empty() {
+            return Ok(None);
+        }
+        Self::open_due(tx, site, inputs)
+    }
+
+    /// As [`Memory::open`]; the kept routes may have yet to follow.
+    pub fn open_due(
+        tx: &mut Tx<'_>,
+        site: &Arc<KnowledgeBase>,
+        inputs: &Arc<Inputs>,
+    ) -> Result<Option<Self>> {
         let texts = site.site().texts().to_string();
         let generation = generation::read(tx)?;
         let is_built = generation > 0 && tx.site_value("texts")?.as_deref() == Some(&texts);
-        if !is_built || !tx.stale_marks()?.is_empty() {
+        let marks = tx.stale_marks()?;
+        if !is_built || marks.iter().any(|mark| mark.table != ROUTES) {
             return Ok(None);
         }
         let told = site.told(tx, &inputs.rules)?;
@@ -115,7 +128,8 @@ impl Memory {
         let floor = (&**state.graph(), &*state.gauge);
         let plan = trees::plan(floor, &site.robots(tx)?, site.site().starts_in_rooms())?;
         let before = Before { graph: state.graph(), starts: &starts };
-        Ok(before.same_starts(&plan.starts).then(|| Self::of(state, kept, plan, basis)))
+        let is_same = before.same_starts(&plan.starts);
+        Ok(is_same.then(|| Self { routes_due: !marks.is_empty(), ..Self::of(state, kept, plan, basis) }))
     }
 
     /// Derives everything from files and tables as they stand, and writes it.

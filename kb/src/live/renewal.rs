@@ -50,7 +50,7 @@ impl Live {
     /// The kept routes that edits left stale; `None` where none are.
     pub fn renewal(&self) -> Result<Option<Renewal>> {
         let memory = &self.memory;
-        if !memory.routes_due {
+        if !memory.routes_due || !self.renews() {
             return Ok(None);
         }
         let graph = Arc::clone(memory.state.graph());
@@ -70,6 +70,9 @@ impl Live {
             return Ok(false);
         }
         let generation = self.memory.state.generation;
+        if !self.leads_now()? {
+            return Ok(false);
+        }
         let kept = self.store.transaction(|tx| -> Result<bool> {
             let is_ours = |mark: &Mark| mark.table == ROUTES;
             if generation::read(tx)? != generation || !tx.stale_marks()?.iter().all(is_ours) {
@@ -82,7 +85,9 @@ impl Live {
                 tx.mark_fresh()?;
             }
             Ok(true)
-        })?;
+        });
+        self.store.cede();
+        let kept = kept?;
         self.memory.routes_due &= !(kept && last);
         Ok(kept)
     }

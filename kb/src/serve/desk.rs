@@ -39,6 +39,9 @@ pub struct Desk {
     taken: Option<Files>,
 }
 
+/// How long the right to edit is waited for, where other services have it.
+const LEADING: Duration = Duration::from_secs(10);
+
 /// What is said of edits of others that the history does not tell.
 const EDITED: &str = "tables were edited";
 
@@ -136,6 +139,7 @@ impl Desk {
         self.check_database()?;
         // what others did before has its own cause
         self.catch_up();
+        self.lead()?;
         let has_files = !self.live.files_of(edit)?.is_empty();
         let edited = if has_files {
             // the site as its files are: somebody may have saved another one a moment ago
@@ -143,6 +147,7 @@ impl Desk {
         } else {
             self.live.edit(edit, author)
         };
+        self.live.cede();
         if edited.is_err() && self.live.view().generation() != self.shared.view.load().view.generation() {
             let outcome = self.live.reopen().map(Some);
             self.report(outcome, &Cause::itself("another program", EDITED));
@@ -216,10 +221,54 @@ impl Desk {
 
     /// Follows the clock and what other programs edited.
     fn catch_up(&mut self) {
-        match self.live.catch_up() {
+        let outcome = self.live.catch_up();
+        self.caught_up(outcome);
+    }
+
+    fn caught_up(&mut self, outcome: Result<Option<Outcome>>) {
+        if self.live.has_new_files() {
+            self.files_are_taken();
+        }
+        let source = if self.shared.settings.shared.is_some() { Source::Database } else { Source::Site };
+        match outcome {
             Ok(Some(outcome)) => self.publish(&outcome, &Cause::of(&outcome)),
-            Ok(None) => {}
-            Err(error) => self.say_problems(Problem::all(error.problems())),
+            Ok(None) => self.show_routes(),
+            Err(error) => return self.shared.say_problems(source, Problem::all(error.problems())),
+        }
+        if source == Source::Database {
+            self.shared.say_problems(source, Vec::new());
+        }
+    }
+
+    /// Shows that kept routes are stale, or no longer, where nothing else changed.
+    fn show_routes(&mut self) {
+        let shown = self.shared.view.load();
+        if self.live.view().routes_due() != shown.view.routes_due() {
+            let since = shown.since.clone();
+            self.shared.show(Seen { since, ..seen(&self.live) });
+        }
+    }
+
+    /// Another service says that it wrote something.
+    pub fn hear(&mut self) {
+        self.catch_up();
+    }
+
+    /// Waits for the right to edit, of a site that other services edit, too; what they write meanwhile is followed.
+    fn lead(&mut self) -> Result<()> {
+        if self.shared.settings.shared.is_none() {
+            return Ok(());
+        }
+        let began = Instant::now();
+        loop {
+            let leads = self.live.try_lead()?;
+            let followed = self.live.follow_others();
+            self.caught_up(followed);
+            if leads || began.elapsed() > LEADING {
+                // whoever does not have it by now is told so by the edit
+                return Ok(());
+            }
+            thread::sleep(Duration::from_millis(15));
         }
     }
 

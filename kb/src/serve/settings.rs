@@ -4,6 +4,7 @@ use std::net::SocketAddr;
 use std::path::PathBuf;
 use std::time::Duration;
 
+use adit_db::postgres::Place;
 use serde::Serialize;
 use utoipa::ToSchema;
 
@@ -31,6 +32,8 @@ pub type Complete = fn(&KnowledgeBase, &Drafts, &str, usize) -> Result<Vec<Propo
 pub struct Settings {
     pub folder: PathBuf,
     pub database: Option<PathBuf>,
+    /// Where the site is in PostgreSQL, which other services may be on as well.
+    pub shared: Option<Place>,
     pub rules: Option<PathBuf>,
     pub listen: SocketAddr,
     /// Names besides those of this machine under which browsers may call the service.
@@ -50,6 +53,13 @@ pub struct Settings {
 }
 
 impl Settings {
+    /// The name of the site in PostgreSQL: that of the folder where the URL names none.
+    pub fn shared_name(&self, place: &Place) -> String {
+        let folder = std::path::absolute(&self.folder).unwrap_or_default();
+        let name = folder.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        place.site_or(&name)
+    }
+
     /// The site, opened as its files now are.
     pub fn open(&self) -> Result<KnowledgeBase> {
         let site = KnowledgeBase::open(&self.folder)?;

@@ -72,6 +72,8 @@ pub struct Shared {
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Source {
     Tokens,
+    /// Where the site is kept, with others who write it.
+    Database,
     /// The site: its rules, map, settings, tables.
     Site,
 }

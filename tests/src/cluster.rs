@@ -1,0 +1,157 @@
+//! A cluster of PostgreSQL of a test's own: in a temporary folder, on a Unix socket and on loopback, as another user than root.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+use std::time::Duration;
+
+use tempfile::TempDir;
+
+/// The password of the user `adit` by TCP; by the socket it needs none.
+pub const PASSWORD: &str = "a secret";
+
+/// A running cluster with a database `plant`, whose owner is `adit`.
+pub struct Cluster {
+    folder: TempDir,
+    port: u16,
+    programs: PathBuf,
+}
+
+/// Where PostgreSQL's programs are, the newest first.
+fn programs() -> PathBuf {
+    let versions = std::fs::read_dir("/usr/lib/postgresql").expect("the package `postgresql` is installed");
+    let mut versions: Vec<PathBuf> = versions.flatten().map(|entry| entry.path().join("bin")).collect();
+    versions.sort();
+    versions.into_iter().rfind(|bin| bin.join("initdb").is_file()).expect("the package `postgresql` is installed")
+}
+
+fn is_root() -> bool {
+    let said = Command::new("id").arg("-u").output().expect("id is there");
+    said.stdout.trim_ascii() == b"0"
+}
+
+impl Cluster {
+    /// Makes a cluster and starts it.
+    pub fn start() -> Self {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let port = std::net::TcpListener::bind("127.0.0.1:0").and_then(|free| free.local_addr()).expect("a port").port();
+        let cluster = Self { folder, port, programs: programs() };
+        let password = cluster.path().join("password");
+        std::fs::write(&password, PASSWORD).expect("a file");
+        if is_root() {
+            let owned = Command::new("chown").arg("-R").arg("postgres").arg(cluster.path()).status();
+            assert!(owned.expect("chown is there").success());
+        }
+        let data = cluster.path().join("data");
+        let (data, password) = (data.display().to_string(), password.display().to_string());
+        let made = cluster.run("initdb", &[
+            "-D", &data, "-U", "adit", "-E", "UTF8", "--locale=C", "--auth-local=trust", "--auth-host=scram-sha-256",
+            "--pwfile", &password,
+        ]);
+        assert!(made.status.success(), "{}", String::from_utf8_lossy(&made.stderr));
+        cluster.up();
+        cluster.sql("CREATE DATABASE plant", "postgres");
+        cluster
+    }
+
+    fn path(&self) -> &Path {
+        self.folder.path()
+    }
+
+    fn run(&self, program: &str, arguments: &[&str]) -> Output {
+        let program = self.programs.join(program);
+        let mut command = if is_root() {
+            let mut command = Command::new("setpriv");
+            command.args(["--reuid=postgres", "--regid=postgres", "--clear-groups"]).arg(program);
+            command
+        } else {
+            Command::new(program)
+        };
+        command.current_dir(self.path()).args(arguments).output().expect("PostgreSQL's programs run")
+    }
+
+    /// Starts it after it was [killed](Self::kill).
+    pub fn up(&self) {
+        let (data, log) = (self.path().join("data"), self.path().join("log"));
+        let (data, log) = (data.display().to_string(), log.display().to_string());
+        let options = format!(
+            "-k {} -p {} -c listen_addresses=127.0.0.1 -c max_connections=200 -c shared_buffers=64MB",
+            self.path().display(),
+            self.port
+        );
+        for tried in 0.. {
+            // its output goes to the log, and not into a pipe that it would hold open
+            let started = self.run("pg_ctl", &["-D", &data, "-l", &log, "-o", &options, "-w", "start"]);
+            if started.status.success() {
+                break;
+            }
+            let said = std::fs::read_to_string(&log).unwrap_or_default();
+            assert!(tried < 50, "PostgreSQL does not start: {said}");
+            std::thread::sleep(Duration::from_millis(100));
+        }
+    }
+
+    /// Ends it as `kill -9` would.
+    pub fn kill(&self) {
+        let file = self.path().join("data/postmaster.pid");
+        let pid = std::fs::read_to_string(file).expect("it runs");
+        let pid = pid.lines().next().expect("it runs").to_owned();
+        let children = Command::new("pgrep").args(["-P", &pid]).output().expect("pgrep is there");
+        let children = String::from_utf8_lossy(&children.stdout).into_owned();
+        Command::new("kill").arg("-9").arg(&pid).args(children.split_whitespace()).status().expect("kill is there");
+        while Path::new("/proc").join(&pid).exists() {
+            std::thread::sleep(Duration::from_millis(10));
+        }
+    }
+
+    /// The URL of a site, by the socket.
+    pub fn url(&self, site: &str) -> String {
+        self.url_as("adit", site)
+    }
+
+    /// The URL of a site for a user of the database, by the socket.
+    pub fn url_as(&self, user: &str, site: &str) -> String {
+        format!("postgres://{user}@localhost:{}/plant?host={}&site={site}", self.port, self.path().display())
+    }
+
+    /// The URL of a site by TCP, with this password.
+    pub fn tcp(&self, password: &str, site: &str) -> String {
+        let password = password.replace(' ', "%20");
+        format!("postgres://adit:{password}@127.0.0.1:{}/plant?site={site}", self.port)
+    }
+
+    /// What SQL gives, a text a row, its columns joined by `|`.
+    ///
+    /// # Panics
+    /// Where it is refused.
+    pub fn ask(&self, sql: &str) -> Vec<String> {
+        self.sql(sql, "plant")
+    }
+
+    /// The same as another user, or what was said instead.
+    pub fn ask_as(&self, user: &str, sql: &str) -> Result<Vec<String>, String> {
+        self.psql(user, sql, "plant")
+    }
+
+    fn sql(&self, sql: &str, database: &str) -> Vec<String> {
+        self.psql("adit", sql, database).unwrap_or_else(|said| panic!("{sql}: {said}"))
+    }
+
+    fn psql(&self, user: &str, sql: &str, database: &str) -> Result<Vec<String>, String> {
+        let port = self.port.to_string();
+        let host = self.path().display().to_string();
+        let said = self.run("psql", &[
+            "-h", &host, "-p", &port, "-U", user, "-d", database, "-XAtq", "-v", "ON_ERROR_STOP=1", "-c", sql,
+        ]);
+        if !said.status.success() {
+            return Err(String::from_utf8_lossy(&said.stderr).into_owned());
+        }
+        Ok(String::from_utf8_lossy(&said.stdout).lines().map(str::to_owned).collect())
+    }
+}
+
+impl Drop for Cluster {
+    fn drop(&mut self) {
+        let data = self.path().join("data").display().to_string();
+        self.run("pg_ctl", &["-D", &data, "-m", "immediate", "stop"]);
+    }
+}
