@@ -11,16 +11,17 @@ use std::rc::Rc;
 use std::{ptr, slice};
 
 use libsqlite3_sys::{
-    SQLITE_BLOB, SQLITE_DBCONFIG_DEFENSIVE, SQLITE_DBCONFIG_ENABLE_TRIGGER, SQLITE_DBCONFIG_TRUSTED_SCHEMA, SQLITE_DENY, SQLITE_DONE,
-    SQLITE_FLOAT, SQLITE_FUNCTION, SQLITE_INTEGER, SQLITE_LIMIT_ATTACHED, SQLITE_LIMIT_COLUMN,
-    SQLITE_LIMIT_COMPOUND_SELECT, SQLITE_LIMIT_EXPR_DEPTH, SQLITE_LIMIT_FUNCTION_ARG, SQLITE_LIMIT_LENGTH,
-    SQLITE_LIMIT_LIKE_PATTERN_LENGTH, SQLITE_LIMIT_SQL_LENGTH, SQLITE_LIMIT_TRIGGER_DEPTH,
-    SQLITE_LIMIT_VARIABLE_NUMBER, SQLITE_LIMIT_VDBE_OP, SQLITE_NULL, SQLITE_OK, SQLITE_READ,
-    SQLITE_RECURSIVE, SQLITE_ROW, SQLITE_SELECT, sqlite3, sqlite3_column_blob, sqlite3_column_bytes,
-    sqlite3_column_count, sqlite3_column_double, sqlite3_column_int64, sqlite3_column_name,
-    sqlite3_column_text, sqlite3_column_type, sqlite3_db_config, sqlite3_errmsg, sqlite3_extended_errcode,
-    sqlite3_finalize, sqlite3_hard_heap_limit64, sqlite3_limit, sqlite3_memory_used, sqlite3_prepare_v2,
-    sqlite3_set_authorizer, sqlite3_step, sqlite3_stmt, sqlite3_stmt_readonly,
+    SQLITE_BLOB, SQLITE_DBCONFIG_DEFENSIVE, SQLITE_DBCONFIG_ENABLE_TRIGGER, SQLITE_DBCONFIG_TRUSTED_SCHEMA,
+    SQLITE_DENY, SQLITE_DONE, SQLITE_FLOAT, SQLITE_FUNCTION, SQLITE_INTEGER, SQLITE_LIMIT_ATTACHED,
+    SQLITE_LIMIT_COLUMN, SQLITE_LIMIT_COMPOUND_SELECT, SQLITE_LIMIT_EXPR_DEPTH, SQLITE_LIMIT_FUNCTION_ARG,
+    SQLITE_LIMIT_LENGTH, SQLITE_LIMIT_LIKE_PATTERN_LENGTH, SQLITE_LIMIT_SQL_LENGTH,
+    SQLITE_LIMIT_TRIGGER_DEPTH, SQLITE_LIMIT_VARIABLE_NUMBER, SQLITE_LIMIT_VDBE_OP, SQLITE_NULL, SQLITE_OK,
+    SQLITE_READ, SQLITE_RECURSIVE, SQLITE_ROW, SQLITE_SELECT, sqlite3, sqlite3_column_blob,
+    sqlite3_column_bytes, sqlite3_column_count, sqlite3_column_double, sqlite3_column_int64,
+    sqlite3_column_name, sqlite3_column_text, sqlite3_column_type, sqlite3_db_config, sqlite3_errmsg,
+    sqlite3_extended_errcode, sqlite3_finalize, sqlite3_hard_heap_limit64, sqlite3_limit,
+    sqlite3_memory_used, sqlite3_prepare_v2, sqlite3_set_authorizer, sqlite3_step, sqlite3_stmt,
+    sqlite3_stmt_readonly,
 };
 use sqlx::sqlite::LockedSqliteHandle;
 

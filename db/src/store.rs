@@ -77,7 +77,8 @@ impl Store {
         }
         let options = options(path, PATIENCE)?.read_only(true);
         let open = || -> Result<_> {
-            let mut store = Self { connection: Connection::open(path, &options)?, writes: false, replica: None };
+            let mut store =
+                Self { connection: Connection::open(path, &options)?, writes: false, replica: None };
             let kind = store.run(async |connection| migrate::kind(connection).await)?;
             Ok((store, kind))
         };

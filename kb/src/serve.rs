@@ -50,7 +50,8 @@ pub fn run(mut settings: Settings, ready: impl FnOnce(std::net::SocketAddr)) -> 
     let mut copy = None;
     let mut live = match settings.shared.clone() {
         Some(place) => {
-            let folder = tempfile::tempdir().map_err(|error| Error::io("make", &std::env::temp_dir(), &error))?;
+            let folder =
+                tempfile::tempdir().map_err(|error| Error::io("make", &std::env::temp_dir(), &error))?;
             let database = folder.path().join("site.db");
             let name = settings.shared_name(&place);
             let replica = live::copy(&place, &name, (&settings.folder, &database))?;

@@ -21,7 +21,10 @@ fn programs() -> PathBuf {
     let versions = std::fs::read_dir("/usr/lib/postgresql").expect("the package `postgresql` is installed");
     let mut versions: Vec<PathBuf> = versions.flatten().map(|entry| entry.path().join("bin")).collect();
     versions.sort();
-    versions.into_iter().rfind(|bin| bin.join("initdb").is_file()).expect("the package `postgresql` is installed")
+    versions
+        .into_iter()
+        .rfind(|bin| bin.join("initdb").is_file())
+        .expect("the package `postgresql` is installed")
 }
 
 fn is_root() -> bool {
@@ -33,7 +36,10 @@ impl Cluster {
     /// Makes a cluster and starts it.
     pub fn start() -> Self {
         let folder = tempfile::tempdir().expect("a temporary folder");
-        let port = std::net::TcpListener::bind("127.0.0.1:0").and_then(|free| free.local_addr()).expect("a port").port();
+        let port = std::net::TcpListener::bind("127.0.0.1:0")
+            .and_then(|free| free.local_addr())
+            .expect("a port")
+            .port();
         let cluster = Self { folder, port, programs: programs() };
         let password = cluster.path().join("password");
         std::fs::write(&password, PASSWORD).expect("a file");
@@ -43,10 +49,22 @@ impl Cluster {
         }
         let data = cluster.path().join("data");
         let (data, password) = (data.display().to_string(), password.display().to_string());
-        let made = cluster.run("initdb", &[
-            "-D", &data, "-U", "adit", "-E", "UTF8", "--locale=C", "--auth-local=trust", "--auth-host=scram-sha-256",
-            "--pwfile", &password,
-        ]);
+        let made = cluster.run(
+            "initdb",
+            &[
+                "-D",
+                &data,
+                "-U",
+                "adit",
+                "-E",
+                "UTF8",
+                "--locale=C",
+                "--auth-local=trust",
+                "--auth-host=scram-sha-256",
+                "--pwfile",
+                &password,
+            ],
+        );
         assert!(made.status.success(), "{}", String::from_utf8_lossy(&made.stderr));
         cluster.up();
         cluster.sql("CREATE DATABASE plant", "postgres");
@@ -97,7 +115,12 @@ impl Cluster {
         let pid = pid.lines().next().expect("it runs").to_owned();
         let children = Command::new("pgrep").args(["-P", &pid]).output().expect("pgrep is there");
         let children = String::from_utf8_lossy(&children.stdout).into_owned();
-        Command::new("kill").arg("-9").arg(&pid).args(children.split_whitespace()).status().expect("kill is there");
+        Command::new("kill")
+            .arg("-9")
+            .arg(&pid)
+            .args(children.split_whitespace())
+            .status()
+            .expect("kill is there");
         while Path::new("/proc").join(&pid).exists() {
             std::thread::sleep(Duration::from_millis(10));
         }
@@ -139,9 +162,24 @@ impl Cluster {
     fn psql(&self, user: &str, sql: &str, database: &str) -> Result<Vec<String>, String> {
         let port = self.port.to_string();
         let host = self.path().display().to_string();
-        let said = self.run("psql", &[
-            "-h", &host, "-p", &port, "-U", user, "-d", database, "-XAtq", "-v", "ON_ERROR_STOP=1", "-c", sql,
-        ]);
+        let said = self.run(
+            "psql",
+            &[
+                "-h",
+                &host,
+                "-p",
+                &port,
+                "-U",
+                user,
+                "-d",
+                database,
+                "-XAtq",
+                "-v",
+                "ON_ERROR_STOP=1",
+                "-c",
+                sql,
+            ],
+        );
         if !said.status.success() {
             return Err(String::from_utf8_lossy(&said.stderr).into_owned());
         }

@@ -67,12 +67,18 @@ impl Capture {
                 if !is_watched {
                     watch(connection, table).await?;
                 }
-                let rows = Rows { whole: true, gone: Vec::new(), now: all(connection, table).await?, key: table.before() };
+                let rows = Rows {
+                    whole: true,
+                    gone: Vec::new(),
+                    now: all(connection, table).await?,
+                    key: table.before(),
+                };
                 changes.tables.insert(table.name.clone(), rows);
             }
         }
         for name in noted(connection, self.tables.keys()).await? {
-            let Some(table) = tables.get(&name).filter(|table| !changes.tables.contains_key(&table.name)) else {
+            let Some(table) = tables.get(&name).filter(|table| !changes.tables.contains_key(&table.name))
+            else {
                 continue;
             };
             changes.tables.insert(name, changed(connection, table).await?);
@@ -194,7 +200,8 @@ impl Capture {
 pub(super) async fn everything(connection: &mut SqliteConnection, template: &Template) -> Result<Changes> {
     let mut changes = Changes::default();
     for (name, table) in template.tables_of(connection).await? {
-        let rows = Rows { whole: true, gone: Vec::new(), now: all(connection, &table).await?, key: table.before() };
+        let rows =
+            Rows { whole: true, gone: Vec::new(), now: all(connection, &table).await?, key: table.before() };
         changes.tables.insert(name, rows);
     }
     changes.objects = Some(template.objects(connection).await?);
@@ -300,8 +307,10 @@ async fn changed(connection: &mut SqliteConnection, table: &Table) -> Result<Row
     let on = table.key.iter().enumerate().map(|(at, key)| same(at, key)).collect::<Vec<_>>().join(" AND ");
     let keys = (0..table.key.len()).map(|at| format!("k{at}")).collect::<Vec<_>>().join(", ");
     let once = format!("(SELECT DISTINCT {keys} FROM temp.{noted}) AS c");
-    let gone = format!("SELECT {keys} FROM {once} WHERE NOT EXISTS (SELECT 1 FROM main.{name} AS t WHERE {on})");
-    let now = format!("SELECT {} FROM {once} CROSS JOIN main.{name} AS t ON {on}", Table::list("t.", table.read()));
+    let gone =
+        format!("SELECT {keys} FROM {once} WHERE NOT EXISTS (SELECT 1 FROM main.{name} AS t WHERE {on})");
+    let now =
+        format!("SELECT {} FROM {once} CROSS JOIN main.{name} AS t ON {on}", Table::list("t.", table.read()));
     Ok(Rows {
         whole: false,
         gone: rows(connection, gone).await?,
@@ -312,7 +321,8 @@ async fn changed(connection: &mut SqliteConnection, table: &Table) -> Result<Row
 
 /// All rows of a table, by their keys.
 async fn all(connection: &mut SqliteConnection, table: &Table) -> Result<Vec<Vec<Cell>>> {
-    let (columns, key) = (Table::list("", table.read()), Table::list("", table.key.iter().map(String::as_str)));
+    let (columns, key) =
+        (Table::list("", table.read()), Table::list("", table.key.iter().map(String::as_str)));
     rows(connection, format!("SELECT {columns} FROM main.{} ORDER BY {key}", identifier(&table.name))).await
 }
 
@@ -340,7 +350,11 @@ async fn remove(connection: &mut SqliteConnection, table: &Table, keys: &[Vec<Ce
 async fn put(connection: &mut SqliteConnection, table: &Table, rows: &[Vec<Cell>]) -> Result<()> {
     let columns = table.read();
     // a key that is a column as well is said once
-    let repeated = if table.ours { 0 } else { table.key.iter().filter(|key| table.columns.iter().any(|c| c.name == **key)).count() };
+    let repeated = if table.ours {
+        0
+    } else {
+        table.key.iter().filter(|key| table.columns.iter().any(|c| c.name == **key)).count()
+    };
     let columns = &columns[repeated..];
     let most = (VALUES / columns.len().max(1)).max(1);
     let conflict = if table.ours {
@@ -350,7 +364,8 @@ async fn put(connection: &mut SqliteConnection, table: &Table, rows: &[Vec<Cell>
             .map(|name| format!("{0} = excluded.{0}", identifier(name)))
             .collect();
         let key = Table::list("", table.key.iter().map(String::as_str));
-        let what = if set.is_empty() { "NOTHING".to_owned() } else { format!("UPDATE SET {}", set.join(", ")) };
+        let what =
+            if set.is_empty() { "NOTHING".to_owned() } else { format!("UPDATE SET {}", set.join(", ")) };
         format!(" ON CONFLICT ({key}) DO {what}")
     } else {
         String::new()

@@ -79,7 +79,8 @@ impl Changes {
     /// Reads an entry of the log; `None` where it is none.
     pub(super) fn read(text: &str) -> Option<Self> {
         let value: Value = serde_json::from_str(text).ok()?;
-        let rows = |value: &Value| -> Option<Vec<Vec<Cell>>> { value.as_array()?.iter().map(cells).collect() };
+        let rows =
+            |value: &Value| -> Option<Vec<Vec<Cell>>> { value.as_array()?.iter().map(cells).collect() };
         let mut changes = Self::default();
         for (name, entry) in value["tables"].as_object()? {
             let whole = entry["whole"].as_bool()?;

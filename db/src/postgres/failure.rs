@@ -66,10 +66,14 @@ pub enum Failure {
     #[error("another service edits the site `{0}` just now")]
     Held(String),
     /// Another service has written, or may write by now: nothing of the edit was kept.
-    #[error("the right to edit the site `{0}` went to another service meanwhile; nothing of the edit was kept")]
+    #[error(
+        "the right to edit the site `{0}` went to another service meanwhile; nothing of the edit was kept"
+    )]
     Fenced(String),
     /// Whether an edit was kept cannot be found out.
-    #[error("the connection to {0} broke while an edit was kept: whether it was made shows when the database is back")]
+    #[error(
+        "the connection to {0} broke while an edit was kept: whether it was made shows when the database is back"
+    )]
     UnknownOutcome(String),
     /// The log does not reach back to where this copy is.
     #[error("this copy of the site `{0}` is too old to follow its log: it is made anew")]

@@ -20,7 +20,8 @@ const REST: Duration = Duration::from_millis(500);
 const TRIES: u32 = 20;
 
 /// What every connection of ours is told: it waits for no lock and for no lost client for long. A reader's pooler may refuse it.
-const SETTINGS: &str = "SET lock_timeout = '2s'; SET idle_in_transaction_session_timeout = '5s'; SET synchronous_commit = on";
+const SETTINGS: &str =
+    "SET lock_timeout = '2s'; SET idle_in_transaction_session_timeout = '5s'; SET synchronous_commit = on";
 
 pub(super) struct Link {
     runtime: Runtime,
@@ -46,15 +47,10 @@ impl Link {
     }
 
     /// Does something with the connection, once.
-    pub(super) fn once<T>(
-        &mut self,
-        work: impl AsyncFnOnce(&mut PgConnection) -> Result<T>,
-    ) -> Result<T> {
+    pub(super) fn once<T>(&mut self, work: impl AsyncFnOnce(&mut PgConnection) -> Result<T>) -> Result<T> {
         self.connect()?;
         let Some(connection) = &mut self.connection else { return Err(self.unreachable("no connection")) };
-        let worked = self.runtime.block_on(async {
-            tokio::time::timeout(WORK, work(connection)).await
-        });
+        let worked = self.runtime.block_on(async { tokio::time::timeout(WORK, work(connection)).await });
         match worked {
             Ok(Ok(value)) => Ok(value),
             Ok(Err(error)) => {
@@ -110,9 +106,9 @@ impl Link {
         if self.connection.is_some() {
             return Ok(());
         }
-        let opened = self.runtime.block_on(async {
-            tokio::time::timeout(CONNECTING, open(&self.place.options)).await
-        });
+        let opened = self
+            .runtime
+            .block_on(async { tokio::time::timeout(CONNECTING, open(&self.place.options)).await });
         let opened = match opened {
             Ok(Ok(connection)) => Ok(connection),
             Ok(Err(error)) => Err(self.said(Error::Sql(error))),

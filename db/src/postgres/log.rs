@@ -45,7 +45,12 @@ pub(super) fn acquire(link: &mut Link, site: &str, owner: &str, lasts: Duration)
 }
 
 /// Has the right to write last longer; `false` where it is another's by now.
-pub(super) fn extend(link: &mut Link, site: &str, owner: &str, (fence, lasts): (i64, Duration)) -> Result<bool> {
+pub(super) fn extend(
+    link: &mut Link,
+    site: &str,
+    owner: &str,
+    (fence, lasts): (i64, Duration),
+) -> Result<bool> {
     let sql = "UPDATE adit.sites SET ends = now() + $4 * interval '1 second'
                WHERE site = $1 AND owner = $2 AND fence = $3";
     link.again(async |connection| {
@@ -143,14 +148,16 @@ fn find_out(link: &mut Link, draft: &Draft<'_>) -> Option<bool> {
         let found = link.once(async |connection| {
             sqlx::raw_sql("BEGIN").execute(&mut *connection).await?;
             let sql = "SELECT entry FROM adit.sites WHERE site = $1 FOR UPDATE";
-            let head: Option<i64> = match sqlx::query_scalar(sql).bind(draft.site).fetch_optional(&mut *connection).await {
-                Ok(head) => head,
-                Err(error) => {
-                    sqlx::raw_sql("ROLLBACK").execute(&mut *connection).await.ok();
-                    return Err(error.into());
-                }
-            };
-            let sql = "SELECT count(*) FROM adit.log WHERE site = $1 AND entry = $2 AND owner = $3 AND fence = $4";
+            let head: Option<i64> =
+                match sqlx::query_scalar(sql).bind(draft.site).fetch_optional(&mut *connection).await {
+                    Ok(head) => head,
+                    Err(error) => {
+                        sqlx::raw_sql("ROLLBACK").execute(&mut *connection).await.ok();
+                        return Err(error.into());
+                    }
+                };
+            let sql =
+                "SELECT count(*) FROM adit.log WHERE site = $1 AND entry = $2 AND owner = $3 AND fence = $4";
             let query = sqlx::query_scalar(sql).bind(draft.site).bind(draft.entry);
             let kept: i64 = query.bind(draft.owner).bind(draft.fence).fetch_one(&mut *connection).await?;
             sqlx::raw_sql("ROLLBACK").execute(&mut *connection).await?;

@@ -45,14 +45,18 @@ impl Place {
                 false
             })
             .collect();
-        let site = site.map(|name| decoded(&name).ok_or_else(|| refused("the site's name is no text"))).transpose()?;
+        let site = site
+            .map(|name| decoded(&name).ok_or_else(|| refused("the site's name is no text")))
+            .transpose()?;
         if site.as_deref().is_some_and(|name| name.is_empty() || name.len() > NAME || name.contains('\0')) {
             return Err(refused("the site's name is empty, or longer than 200 bytes").into());
         }
-        let address = if rest.is_empty() { address.to_owned() } else { format!("{address}?{}", rest.join("&")) };
+        let address =
+            if rest.is_empty() { address.to_owned() } else { format!("{address}?{}", rest.join("&")) };
         // what sqlx says of a URL may hold its password
-        let options = PgConnectOptions::from_str(&address)
-            .map_err(|_| refused("it is written as `postgres://USER:PASSWORD@HOST:PORT/DATABASE?site=NAME`"))?;
+        let options = PgConnectOptions::from_str(&address).map_err(|_| {
+            refused("it is written as `postgres://USER:PASSWORD@HOST:PORT/DATABASE?site=NAME`")
+        })?;
         let options = options.application_name("adit").disable_statement_logging();
         Ok(Self { options, site })
     }
@@ -111,7 +115,8 @@ mod tests {
 
     #[test]
     fn the_site_is_taken_out_of_the_url_and_a_password_is_not_shown() {
-        let place = Place::parse("postgres://u:secret@127.0.0.1:6543/plant?site=hall%203&sslmode=disable").unwrap();
+        let place =
+            Place::parse("postgres://u:secret@127.0.0.1:6543/plant?site=hall%203&sslmode=disable").unwrap();
         assert_eq!(place.site(), Some("hall 3"));
         assert_eq!(place.shown(), "plant at 127.0.0.1:6543");
         assert_eq!(Place::parse("postgres:///plant?host=/run/pg").unwrap().shown(), "plant at /run/pg");

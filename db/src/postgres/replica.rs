@@ -111,7 +111,8 @@ impl Replica {
 
     /// The site's files.
     pub fn files(&self) -> Vec<File> {
-        let file = |(path, bytes): (&String, &Vec<u8>)| File { path: path.clone(), bytes: Some(bytes.clone()) };
+        let file =
+            |(path, bytes): (&String, &Vec<u8>)| File { path: path.clone(), bytes: Some(bytes.clone()) };
         self.files.iter().map(file).collect()
     }
 
@@ -187,7 +188,8 @@ impl Replica {
             let Some(text) = written.changes.filter(|_| follows) else {
                 return Err(Failure::TooFarBehind(self.site.clone()).into());
             };
-            let changes = Changes::read(&text).ok_or_else(|| self.unfit(written.entry, "it cannot be read"))?;
+            let changes =
+                Changes::read(&text).ok_or_else(|| self.unfit(written.entry, "it cannot be read"))?;
             entries.push(Entry { entry: written.entry, changes });
         }
         Ok(entries)

@@ -49,7 +49,12 @@ pub(super) fn unknown(link: &mut Link, site: &str) -> Error {
 ///
 /// # Arguments
 /// `replace`: whether one of that name is replaced; services on it go on with the new one.
-pub fn copy_in(store: &mut Store, files: &[File], (place, site): (&Place, &str), replace: bool) -> Result<()> {
+pub fn copy_in(
+    store: &mut Store,
+    files: &[File],
+    (place, site): (&Place, &str),
+    replace: bool,
+) -> Result<()> {
     let mut link = Link::new(place)?;
     let make = async |_: &mut sqlx::SqliteConnection| Template::new(true).await;
     let all = store.run(make)?;
@@ -120,7 +125,12 @@ pub(super) struct Whole {
 impl Whole {
     /// Makes a database of it.
     pub(super) fn make(&self, file: &Path) -> Result<()> {
-        let kept = if self.worlds { drop(Store::create(file)?); Store::open_for_worlds(file)? } else { Store::create(file)? };
+        let kept = if self.worlds {
+            drop(Store::create(file)?);
+            Store::open_for_worlds(file)?
+        } else {
+            Store::create(file)?
+        };
         drop(kept);
         let options = crate::connection::options(file, std::time::Duration::from_secs(5))?;
         let mut connection = Connection::open(file, &options)?;
@@ -137,7 +147,8 @@ pub(super) fn snapshot(link: &mut Link, site: &str) -> Result<(Template, Whole)>
     let read = link.again(async |connection| {
         sqlx::raw_sql("BEGIN ISOLATION LEVEL REPEATABLE READ READ ONLY").execute(&mut *connection).await?;
         let sql = "SELECT entry, worlds FROM adit.sites WHERE site = $1";
-        let head: Option<(i64, bool)> = sqlx::query_as(sql).bind(site).fetch_optional(&mut *connection).await?;
+        let head: Option<(i64, bool)> =
+            sqlx::query_as(sql).bind(site).fetch_optional(&mut *connection).await?;
         let read = match head {
             Some((entry, worlds)) => {
                 let template = Template::new(worlds).await?;
@@ -248,10 +259,8 @@ async fn put(connection: &mut PgConnection, site: &str, table: &Table, rows: &[V
 
 /// Lists of values, one a column, as rows.
 fn unnested(table: &Table, columns: &[&str]) -> String {
-    let lists: Vec<String> = (2..)
-        .zip(columns)
-        .map(|(at, name)| format!("${at}::{}[]", table.kind(name).declared()))
-        .collect();
+    let lists: Vec<String> =
+        (2..).zip(columns).map(|(at, name)| format!("${at}::{}[]", table.kind(name).declared())).collect();
     format!("unnest({})", lists.join(", "))
 }
 
@@ -305,7 +314,8 @@ async fn put_own(connection: &mut PgConnection, site: &str, table: &str, rows: &
         sqlx::query(sql).bind(site).bind(table).bind(keys).execute(&mut *connection).await?;
     }
     for some in rows.now.chunks(ROWS) {
-        let keys: Vec<String> = some.iter().map(|row| changes::line(&row[..rows.key.min(row.len())]).to_string()).collect();
+        let keys: Vec<String> =
+            some.iter().map(|row| changes::line(&row[..rows.key.min(row.len())]).to_string()).collect();
         let lines: Vec<String> = some.iter().map(|row| changes::line(row).to_string()).collect();
         let sql = "INSERT INTO adit.own_rows SELECT $1, $2, * FROM unnest($3::text[], $4::text[])
                    ON CONFLICT (site, table_name, key) DO UPDATE SET row = excluded.row";
@@ -342,7 +352,9 @@ async fn read(connection: &mut PgConnection, site: &str, template: &Template) ->
     Template::order(&mut objects);
     let whole = || Rows { whole: true, ..Rows::default() };
     let theirs = template.tables.values().filter(|table| !table.ours).map(|table| &table.name);
-    for name in objects.iter().filter(|object| object.kind == "table").map(|object| &object.name).chain(theirs) {
+    for name in
+        objects.iter().filter(|object| object.kind == "table").map(|object| &object.name).chain(theirs)
+    {
         changes.tables.insert(name.clone(), whole());
     }
     for (table, row) in own {

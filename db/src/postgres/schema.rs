@@ -19,7 +19,9 @@ pub(super) async fn version(connection: &mut PgConnection) -> Result<Option<i64>
     if tables == 0 {
         return Ok(None);
     }
-    Ok(sqlx::query_scalar("SELECT version FROM adit.version WHERE one = 1").fetch_optional(connection).await?)
+    Ok(sqlx::query_scalar("SELECT version FROM adit.version WHERE one = 1")
+        .fetch_optional(connection)
+        .await?)
 }
 
 /// Refuses tables of another version, and a database without any.

@@ -116,7 +116,10 @@ impl Template {
     }
 
     /// The tables of a database whose rows are shared.
-    pub(super) async fn tables_of(&self, connection: &mut SqliteConnection) -> Result<BTreeMap<String, Table>> {
+    pub(super) async fn tables_of(
+        &self,
+        connection: &mut SqliteConnection,
+    ) -> Result<BTreeMap<String, Table>> {
         self.described(connection, false).await
     }
 
@@ -202,7 +205,8 @@ async fn describe(
 
 /// The columns of indexes that somebody made for a table, but for those of its key.
 async fn indexes(connection: &mut SqliteConnection, table: &str) -> Result<Vec<Vec<String>>> {
-    let sql = "SELECT name FROM pragma_index_list(?) WHERE origin IN ('c', 'u') AND partial = 0 ORDER BY name";
+    let sql =
+        "SELECT name FROM pragma_index_list(?) WHERE origin IN ('c', 'u') AND partial = 0 ORDER BY name";
     let names: Vec<String> = sqlx::query_scalar(sql).bind(table).fetch_all(&mut *connection).await?;
     let mut indexes = Vec::new();
     for name in names {

@@ -151,7 +151,11 @@ impl Live {
                 Err(error) => return Err(error),
                 Ok(None) => {
                     let help = Some("try again".to_owned());
-                    return Err(Error::said(Code::LiveStale, "the site's tables were edited meanwhile", help));
+                    return Err(Error::said(
+                        Code::LiveStale,
+                        "the site's tables were edited meanwhile",
+                        help,
+                    ));
                 }
             }
         }

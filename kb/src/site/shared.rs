@@ -29,7 +29,8 @@ pub fn files(site: &KnowledgeBase) -> Result<Vec<File>> {
     let inside = folder.canonicalize().map_err(|error| Error::io("read", folder, &error))?;
     for file in site.files() {
         if file.canonicalize().is_ok_and(|file| !file.starts_with(&inside)) {
-            let message = format!("{} is not in the site's folder, and so cannot be kept with it", file.display());
+            let message =
+                format!("{} is not in the site's folder, and so cannot be kept with it", file.display());
             let help = format!("copy it into {}, and name it so", folder.display());
             return Err(Error::said(Code::PostgresFiles, message, Some(help)));
         }
