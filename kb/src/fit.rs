@@ -94,18 +94,21 @@ pub struct Added {
     pub total: usize,
 }
 
+/// Adds traversals, all or none.
+pub(crate) fn add(tx: &mut Tx<'_>, rows: &[Row], measure: Option<&str>, author: &Author) -> Result<Added> {
+    let (states, before) = (tx.states()?, tx.traversals()?);
+    let new = upload::checked(rows, measure, &states, &before, &author.who)?;
+    tx.add_traversals(&new)?;
+    Ok(Added { added: new.len(), total: before.len() + new.len() })
+}
+
 impl KnowledgeBase {
     /// Adds traversals, all or none; an error names the first row that cannot be, from 1.
     ///
     /// # Arguments
     /// `measure` is what is measured where a row does not say.
     pub fn add_traversals(&self, rows: &[Row], measure: Option<&str>, author: &Author) -> Result<Added> {
-        Store::open(self.database())?.transaction(|tx| {
-            let (states, before) = (tx.states()?, tx.traversals()?);
-            let new = upload::checked(rows, measure, &states, &before, &author.who)?;
-            tx.add_traversals(&new)?;
-            Ok(Added { added: new.len(), total: before.len() + new.len() })
-        })
+        Store::open(self.database())?.transaction(|tx| add(tx, rows, measure, author))
     }
 
     /// All traversals, in the order in which they were added.

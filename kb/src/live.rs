@@ -13,8 +13,8 @@ pub mod watch;
 
 use std::sync::Arc;
 
-use adit_db::Store;
 use adit_db::history::{Author, Edit as Entry};
+use adit_db::{Store, Tx};
 
 use crate::answer::Answer;
 use crate::edit::Tell;
@@ -31,8 +31,8 @@ use crate::words::progress::{Silent, Stage};
 pub(crate) use memory::Memory;
 use memory::{Accepted, Followed, Promptness};
 pub use renewal::Renewal;
+pub use shared::Copy;
 use shared::SharedSite;
-pub(crate) use shared::copy;
 pub use view::{View, Ways};
 
 /// A built site, ready for many edits. What it writes is what [`KnowledgeBase::edit`] would write.
@@ -160,13 +160,18 @@ impl Live {
 
     /// Keeps a query of somebody's under a name, or takes it away; whether there is, or was, one.
     pub fn keep_query(&mut self, name: &str, query: Option<(&str, &str)>) -> Result<bool> {
-        self.lead()?;
-        let kept = self.store.transaction(|tx| match query {
+        self.write(|tx| match query {
             Some((query, who)) => Ok(tx.save_query(name, query, who).map(|()| true)?),
             None => Ok(tx.remove_query(name)?),
-        });
+        })
+    }
+
+    /// Writes what nothing follows from, in one transaction.
+    pub fn write<T>(&mut self, work: impl FnOnce(&mut Tx<'_>) -> Result<T>) -> Result<T> {
+        self.lead()?;
+        let written = self.store.transaction(work);
         self.store.cede();
-        kept
+        written
     }
 
     /// Forgets what is in memory, and derives it from files and tables.

@@ -30,7 +30,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use crate::error::{Code, Error, Result};
-use crate::live::{self, Live};
+use crate::live::{Copy, Live};
 use settings::Settings;
 use shared::Shared;
 use token::Tokens;
@@ -50,14 +50,11 @@ pub fn run(mut settings: Settings, ready: impl FnOnce(std::net::SocketAddr)) -> 
     let mut copy = None;
     let mut live = match settings.shared.clone() {
         Some(place) => {
-            let folder =
-                tempfile::tempdir().map_err(|error| Error::io("make", &std::env::temp_dir(), &error))?;
-            let database = folder.path().join("site.db");
             let name = settings.shared_name(&place);
-            let replica = live::copy(&place, &name, (&settings.folder, &database))?;
-            (settings.database, copy) = (Some(database), Some((folder, place, name)));
+            let made = Copy::make(&place, &name, &settings.folder)?;
+            (settings.database, copy) = (Some(made.database.clone()), Some((place, name)));
             let again = settings.clone();
-            Live::open_shared(replica, move || again.open())?
+            Live::open_shared(made, move || again.open())?
         }
         None => Live::open(settings.open()?)?,
     };
@@ -70,7 +67,7 @@ pub fn run(mut settings: Settings, ready: impl FnOnce(std::net::SocketAddr)) -> 
     let watcher = routes::start(Arc::clone(&shared))?;
     let porter = porter::start(Arc::clone(&shared))?;
     let hints = match &copy {
-        Some((_, place, name)) => Some(hints::start(Arc::clone(&shared), place.clone(), name.clone())?),
+        Some((place, name)) => Some(hints::start(Arc::clone(&shared), place.clone(), name.clone())?),
         None => None,
     };
     let served = listen::serve(&shared, ready);
@@ -88,7 +85,7 @@ pub fn run(mut settings: Settings, ready: impl FnOnce(std::net::SocketAddr)) -> 
     served?;
     shared.stop_reading();
     match (desk, watcher, porter) {
-        // a copy goes with its folder
+        // a copy is made anew the next time
         (Ok(_), Ok(()), Ok(())) if copy.is_some() => Ok(true),
         (Ok(live), Ok(()), Ok(())) => live.unshare(),
         _ => Err(Error::said(Code::ServeEnded, "the service ended by a defect of its own", None)),

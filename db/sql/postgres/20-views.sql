@@ -188,14 +188,12 @@ SELECT s.site, s.robot, s.name AS start, e.name AS goal,
    WHERE amount IS NOT NULL) AS measures
 FROM adit.starts s
 JOIN adit.ends e ON e.site = s.site
-JOIN adit.tree_rows g ON g.site = s.site AND g.tree = s.tree AND g.node = e.node
 CROSS JOIN LATERAL (
-  WITH RECURSIVE walk (node, prev) AS (
-    SELECT g.node, g.prev
+  WITH RECURSIVE walk AS (
+    SELECT g.* FROM adit.tree_rows g WHERE g.site = s.site AND g.tree = s.tree AND g.node = e.node
     UNION ALL
-    SELECT b.node, b.prev FROM walk JOIN adit.tree_rows b ON b.site = g.site AND b.tree = g.tree AND b.node = walk.prev)
-  SELECT node FROM walk) AS j
-JOIN adit.tree_rows t ON t.site = s.site AND t.tree = s.tree AND t.node = j.node
+    SELECT b.* FROM walk JOIN adit.tree_rows b ON b.site = walk.site AND b.tree = walk.tree AND b.node = walk.prev)
+  SELECT * FROM walk) AS t
 CROSS JOIN (VALUES (0), (1), (2)) AS p (part)
 LEFT JOIN adit.doors d ON d.site = s.site AND d.door = t.door
 LEFT JOIN adit.rooms r ON r.site = s.site
@@ -208,7 +206,7 @@ SELECT site, robot, start, goal, step, kind, place, state, action, hardness, cos
 FROM adit.course_steps;
 
 CREATE VIEW adit.kept_waypoints AS
-SELECT s.site, s.robot, s.name AS start, e.name AS goal, j.waypoint,
+SELECT s.site, s.robot, s.name AS start, e.name AS goal, t.waypoint,
   coalesce(t.x, d.x) AS x,
   coalesce(t.y, d.y) AS y,
   t.heading / 100.0::double precision AS heading,
@@ -218,15 +216,15 @@ SELECT s.site, s.robot, s.name AS start, e.name AS goal, j.waypoint,
   (SELECT m.measures FROM adit.tree_measures m WHERE m.site = s.site AND m.tree = s.tree AND m.node = t.node) AS measures
 FROM adit.starts s
 JOIN adit.ends e ON e.site = s.site
-JOIN adit.tree_rows g ON g.site = s.site AND g.tree = s.tree AND g.node = e.node
 CROSS JOIN LATERAL (
-  WITH RECURSIVE walk (node, prev, bend, stops, depth) AS (
-    SELECT g.node, g.prev, g.bend, 1, 0
+  WITH RECURSIVE walk (site, tree, node, prev, from_room, door, reach, x, y, heading, distance, clearance, bend, stops, depth) AS (
+    SELECT g.site, g.tree, g.node, g.prev, g.from_room, g.door, g.reach, g.x, g.y, g.heading, g.distance, g.clearance, g.bend, 1, 0
+    FROM adit.tree_rows g WHERE g.site = s.site AND g.tree = s.tree AND g.node = e.node
     UNION ALL
-    SELECT b.node, b.prev, b.bend, CASE WHEN walk.bend = 1 OR b.prev IS NULL THEN 1 ELSE 0 END, walk.depth + 1
-    FROM walk JOIN adit.tree_rows b ON b.site = g.site AND b.tree = g.tree AND b.node = walk.prev)
-  SELECT node, row_number() OVER (ORDER BY depth DESC) AS waypoint FROM walk WHERE stops = 1) AS j
-JOIN adit.tree_rows t ON t.site = s.site AND t.tree = s.tree AND t.node = j.node
+    SELECT b.site, b.tree, b.node, b.prev, b.from_room, b.door, b.reach, b.x, b.y, b.heading, b.distance, b.clearance, b.bend,
+      CASE WHEN walk.bend = 1 OR b.prev IS NULL THEN 1 ELSE 0 END, walk.depth + 1
+    FROM walk JOIN adit.tree_rows b ON b.site = walk.site AND b.tree = walk.tree AND b.node = walk.prev)
+  SELECT walk.*, row_number() OVER (ORDER BY depth DESC) AS waypoint FROM walk WHERE stops = 1) AS t
 LEFT JOIN adit.doors d ON d.site = s.site AND d.door = t.door
 LEFT JOIN adit.rooms r ON r.site = s.site AND r.room = coalesce(t.from_room, t.prev, t.node)
 UNION ALL

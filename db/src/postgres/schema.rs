@@ -14,7 +14,8 @@ const VIEWS: &str = include_str!("../../sql/postgres/20-views.sql");
 
 /// The version of the tables; `None` where there are none.
 pub(super) async fn version(connection: &mut PgConnection) -> Result<Option<i64>> {
-    let sql = "SELECT count(*) FROM information_schema.tables WHERE table_schema = 'adit' AND table_name = 'version'";
+    // who has no right to it is to be told so: the information schema would leave it out
+    let sql = "SELECT count(*) FROM pg_catalog.pg_tables WHERE schemaname = 'adit' AND tablename = 'version'";
     let tables: i64 = sqlx::query_scalar(sql).fetch_one(&mut *connection).await?;
     if tables == 0 {
         return Ok(None);

@@ -56,7 +56,7 @@ fn copy_in(args: &CopyArgs) -> Result<(String, String)> {
     let site = KnowledgeBase::open(Path::new(&args.from))?;
     site.needs_folder()?;
     let name = place.site_or(&last_part(&args.from));
-    let files = shared::files(&site)?;
+    let files = shared::files(&site.site().folder, &site.files())?;
     if !site.database().exists() {
         site.build(&Silent)?;
     }

@@ -3,13 +3,14 @@
 //! Each of them keeps a copy of the rows, and a state in memory that steps as the one of the service that wrote. Where a step does
 //! not come to the same rows the state is opened from these.
 
+use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use adit_db::Store;
 use adit_db::history::Author;
-use adit_db::postgres::{Entry, Failure, Replica};
+use adit_db::postgres::{Entry, Failure, Place, Replica};
 
 use super::memory::{Memory, Promptness, ROUTES};
 use super::{Live, Meanwhile, Outcome, anew};
@@ -32,6 +33,7 @@ pub(super) struct SharedSite {
     lost: bool,
     /// Whether files that others saved were written here, and nobody has looked yet.
     files: bool,
+    _lock: File,
 }
 
 /// How long the right to write is waited for.
@@ -48,19 +50,24 @@ const STEPS: usize = 4;
 const TRIES: usize = 3;
 
 impl Live {
-    /// As [`Live::open`], of a copy that a tie to PostgreSQL was made with.
+    /// As [`Live::open`], of a copy of a site that is in PostgreSQL.
     ///
     /// # Arguments
     /// `open` opens the site as its files now are; its database is the copy.
     pub fn open_shared(
-        replica: Replica,
+        copy: Copy,
         open: impl Fn() -> Result<KnowledgeBase> + Send + 'static,
     ) -> Result<Self> {
         let site = Arc::new(open()?);
-        let mut store = Store::open_copy(site.database(), replica)?;
+        let mut store = Store::open_copy(&copy.database, copy.replica)?;
         let inputs = site.inputs(&Silent)?;
-        let mut shared =
-            SharedSite { open: Box::new(open), others: Some(Instant::now()), lost: false, files: false };
+        let mut shared = SharedSite {
+            open: Box::new(open),
+            others: Some(Instant::now()),
+            lost: false,
+            files: false,
+            _lock: copy.lock,
+        };
         if let Some(memory) = store.snapshot(|tx| Memory::open_due(tx, &site, &inputs))? {
             return Self::of(site, store, memory, Some(shared));
         }
@@ -325,7 +332,7 @@ impl Live {
     }
 
     fn derive(&mut self, site: Arc<KnowledgeBase>, inputs: &Arc<Inputs>) -> Result<Outcome> {
-        let files = shared::files(&site)?;
+        let files = shared::files(&site.site().folder, &site.files())?;
         self.store.stage_files(files);
         let built = site.build_in(&mut self.store, inputs, &Silent);
         self.store.cede();
@@ -350,15 +357,23 @@ fn is(error: &Error, code: Code) -> bool {
     error.problems().first().and_then(crate::error::Finding::code) == Some(code)
 }
 
-/// The copy of a site for one service: its files in a folder, its rows in a database of its own.
-pub fn copy(
-    place: &adit_db::postgres::Place,
-    name: &str,
-    (folder, database): (&Path, &PathBuf),
-) -> Result<Replica> {
-    let replica = Replica::make(place, name, &owner()?, database)?;
-    shared::take(folder, name, &replica.files())?;
-    Ok(replica)
+/// The copy of a site for one service: its files in a folder, its rows in a database there.
+pub struct Copy {
+    pub replica: Replica,
+    pub database: PathBuf,
+    /// Has the folder to itself.
+    lock: File,
+}
+
+impl Copy {
+    /// Makes it.
+    pub fn make(place: &Place, name: &str, folder: &Path) -> Result<Self> {
+        let lock = shared::lock(folder)?;
+        let database = shared::copy(folder);
+        let replica = Replica::make(place, name, &owner()?, &database)?;
+        shared::take(folder, name, &replica.files())?;
+        Ok(Self { replica, database, lock })
+    }
 }
 
 /// A name that no other service has.

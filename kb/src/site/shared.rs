@@ -9,10 +9,13 @@ use siphasher::sip::SipHasher13;
 
 use super::whole;
 use crate::error::{Code, Error, Result};
-use crate::knowledge::KnowledgeBase;
 
 /// In which file a folder says of which site its files are, and what they were.
 const MARK: &str = ".adit-copy";
+
+/// Which file a service holds that is at work in a folder, and where it has its copy of the rows.
+const LOCK: &str = ".adit-lock";
+const COPY: &str = ".adit-copy.db";
 
 /// The most that a site's files may be together.
 const MOST: usize = 64 << 20;
@@ -24,10 +27,12 @@ fn is_left_out(name: &str) -> bool {
 }
 
 /// All files of a site, by their paths from its folder.
-pub fn files(site: &KnowledgeBase) -> Result<Vec<File>> {
-    let folder = &site.site().folder;
+///
+/// # Arguments
+/// `named` are those that the site names, which are to be in the folder.
+pub fn files(folder: &Path, named: &[PathBuf]) -> Result<Vec<File>> {
     let inside = folder.canonicalize().map_err(|error| Error::io("read", folder, &error))?;
-    for file in site.files() {
+    for file in named {
         if file.canonicalize().is_ok_and(|file| !file.starts_with(&inside)) {
             let message =
                 format!("{} is not in the site's folder, and so cannot be kept with it", file.display());
@@ -66,6 +71,26 @@ fn in_folder(folder: &Path) -> Result<Vec<File>> {
     }
     found.sort_by(|one, other| one.path.cmp(&other.path));
     Ok(found)
+}
+
+/// Has a folder to oneself, until what is given back goes: two services would write each other's files.
+pub fn lock(folder: &Path) -> Result<fs::File> {
+    fs::create_dir_all(folder).map_err(|error| Error::io("make", folder, &error))?;
+    let path = folder.join(LOCK);
+    let file = fs::File::create(&path).map_err(|error| Error::io("write", &path, &error))?;
+    file.try_lock().map_err(|_| {
+        let message = format!("another service has its files in {}", folder.display());
+        Error::said(Code::PostgresFiles, message, Some("name a folder of its own".to_owned()))
+    })?;
+    Ok(file)
+}
+
+/// Where a folder has a service's copy of the rows, which is made anew: what a service left that was killed is taken away.
+pub fn copy(folder: &Path) -> PathBuf {
+    for end in ["", "-journal", "-wal", "-shm"] {
+        fs::remove_file(folder.join(format!("{COPY}{end}"))).ok();
+    }
+    folder.join(COPY)
 }
 
 /// Puts a site's files into a folder: one that has none, or those that were put there before and are still the same.

@@ -18,10 +18,7 @@ fn whatever_keeps_a_site_from_being_copied_or_served_is_said() {
         Service::refused(&empty, &["--database", url]).expect_status(2).complains(said);
         assert!(!back.path().join("back").exists(), "nothing half is left");
     };
-    refused(
-        "postgres://localhost:nine/plant",
-        &["postgres/url", "postgres://USER:PASSWORD@HOST:PORT/DATABASE"],
-    );
+    refused("postgres://localhost:nine/plant", &["postgres/url", "no URL of a PostgreSQL database"]);
     refused(
         "postgres://adit@127.0.0.1:1/plant?site=paper",
         &["postgres/unreachable", "plant at 127.0.0.1:1"],

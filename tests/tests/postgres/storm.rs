@@ -108,7 +108,7 @@ impl Storm {
                 continue;
             };
             let asked = Instant::now();
-            let by_sql = turn % 5 == 0;
+            let by_sql = turn.is_multiple_of(5);
             let answer = if by_sql {
                 try_request(&address, "POST", "/api/sql", Some(&json!({"query": sql})))
             } else {
@@ -274,7 +274,7 @@ fn services_and_the_database_are_killed_at_random_and_nothing_is_wrong_old_or_lo
         match log.hardness.get(generation).map(|hardness| format!("{:.9}", costs[hardness])) {
             Some(right) if right == *cost => {}
             Some(right) => {
-                wrong.push(format!("generation {generation}: {cost} instead of {right}, {times} times"))
+                wrong.push(format!("generation {generation}: {cost} instead of {right}, {times} times"));
             }
             // what was built before the first edit
             None => unplaced += times,

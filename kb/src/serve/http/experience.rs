@@ -11,7 +11,7 @@ use utoipa::ToSchema;
 use super::extract::{Asked, Body};
 use super::extract::{BODY, Site, too_large};
 use crate::error::Code;
-use crate::fit::{Added, Fit, Row, Scale, rows_of_csv};
+use crate::fit::{self, Added, Fit, Row, Scale, rows_of_csv};
 use crate::serve::fault::{Answered, Fault};
 use crate::serve::gate::require;
 use crate::serve::role::{Caller, Role};
@@ -84,8 +84,9 @@ pub async fn add(
         (body.traversals, body.measure.or(asked.measure))
     };
     let author = Author { who: caller.name, why: String::new() };
-    let added = site
-        .edit_at_desk(move |desk| Ok(desk.live.site().add_traversals(&rows, measure.as_deref(), &author)?));
+    let added = site.edit_at_desk(move |desk| {
+        Ok(desk.live.write(|tx| fit::add(tx, &rows, measure.as_deref(), &author))?)
+    });
     added.await.map(Json)
 }
 
@@ -98,7 +99,7 @@ pub struct Removed {
 #[utoipa::path(delete, path = "/api/traversals", tag = "experience", responses((status = 200, body = Removed)))]
 pub async fn clear(site: Site, caller: Caller) -> Answered<Json<Removed>> {
     require(&caller, Role::Tune)?;
-    let gone = site.edit_at_desk(|desk| Ok(desk.live.site().clear_traversals()?)).await?;
+    let gone = site.edit_at_desk(|desk| Ok(desk.live.write(|tx| Ok(tx.clear_traversals()?))?)).await?;
     Ok(Json(Removed { removed: gone }))
 }
 
