@@ -147,7 +147,7 @@ pub enum Error {
     Deadline(std::time::Duration),
     /// A site in PostgreSQL.
     #[error(transparent)]
-    Postgres(#[from] crate::postgres::Failure),
+    Postgres(#[from] crate::failure::Failure),
     /// Whatever else SQLite says.
     #[error("{0}")]
     Sql(#[from] sqlx::Error),

@@ -19,6 +19,7 @@ mod dynamic;
 pub mod edit;
 mod error;
 pub mod experience;
+mod failure;
 pub mod floor_plan;
 mod guard;
 pub mod history;

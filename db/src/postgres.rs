@@ -13,7 +13,6 @@
 
 mod capture;
 mod changes;
-mod failure;
 mod hint;
 mod link;
 mod log;
@@ -24,9 +23,10 @@ mod schema;
 mod tables;
 mod upkeep;
 
+pub use crate::failure::Failure;
 pub use changes::File;
-pub use failure::Failure;
 pub use hint::listen;
 pub use place::Place;
 pub use replica::{Entry, Replica};
-pub use rows::{copy_in, copy_out, sites};
+pub(crate) use rows::{Leaving, copy_in};
+pub use rows::{copy_out, sites};

@@ -11,7 +11,7 @@ use crate::doctor::{self, Health};
 use crate::error::{Error, Result};
 use crate::history;
 use crate::migrate::{self, Kind, STEPS, VERSION};
-use crate::postgres::{Entry, File, Replica};
+use crate::postgres::{self, Entry, File, Leaving, Place, Replica};
 use crate::query::{self, Answer, Limits};
 use crate::transaction::Tx;
 
@@ -151,6 +151,15 @@ impl Store {
         store.run(async |connection| replica.begin(connection).await)?;
         store.replica = Some(replica);
         Ok(store)
+    }
+
+    /// Puts the site into PostgreSQL: all that is in the database, and its files.
+    ///
+    /// # Arguments
+    /// `replace`: whether one of that name is replaced; services on it go on with the new one.
+    pub fn copy_in(&mut self, files: &[File], to: (&Place, &str), replace: bool) -> Result<()> {
+        let leaving = self.snapshot(|tx| tx.run(Leaving::read))?;
+        postgres::copy_in(leaving, files, to, replace)
     }
 
     /// Whether it is a copy of a site in PostgreSQL.
@@ -296,7 +305,7 @@ impl Store {
         self.connection.beside(async |path| query::answer(path, sql, limits).await)
     }
 
-    pub(crate) fn run<T>(&mut self, work: impl AsyncFnOnce(&mut SqliteConnection) -> Result<T>) -> Result<T> {
+    fn run<T>(&mut self, work: impl AsyncFnOnce(&mut SqliteConnection) -> Result<T>) -> Result<T> {
         self.connection.run(work)
     }
 }

@@ -6,12 +6,13 @@ use sqlx::postgres::PgConnectOptions;
 use sqlx::{ConnectOptions, Connection, PgConnection};
 use tokio::runtime::{Builder, Runtime};
 
-use super::failure::Failure;
 use super::place::{CONNECTING, Place};
 use crate::error::{Error, Result};
+use crate::failure::Failure;
 
-/// How long one piece of work may take; a whole site takes longer than an edit.
+/// How long one piece of work may take, and a whole site.
 const WORK: Duration = Duration::from_mins(1);
+const WHOLE: Duration = Duration::from_mins(30);
 
 /// After a failure to connect nobody tries again for so long, but for who must.
 const REST: Duration = Duration::from_millis(500);
@@ -28,13 +29,19 @@ pub(super) struct Link {
     connection: Option<PgConnection>,
     place: Place,
     failed: Option<Instant>,
+    patience: Duration,
 }
 
 impl Link {
     pub(super) fn new(place: &Place) -> Result<Self> {
         let runtime = Builder::new_current_thread().enable_all().build();
         let runtime = runtime.map_err(|source| Error::Io { path: "PostgreSQL".into(), source })?;
-        Ok(Self { runtime, connection: None, place: place.clone(), failed: None })
+        Ok(Self { runtime, connection: None, place: place.clone(), failed: None, patience: WORK })
+    }
+
+    /// Whole sites go through it from now on, or no longer.
+    pub(super) fn whole(&mut self, on: bool) {
+        self.patience = if on { WHOLE } else { WORK };
     }
 
     pub(super) fn place(&self) -> &Place {
@@ -46,11 +53,16 @@ impl Link {
         self.failed.is_some_and(|failed| failed.elapsed() < REST)
     }
 
+    /// Does something beside the connection.
+    pub(super) fn apart<T>(&self, work: impl Future<Output = T>) -> T {
+        self.runtime.block_on(work)
+    }
+
     /// Does something with the connection, once.
     pub(super) fn once<T>(&mut self, work: impl AsyncFnOnce(&mut PgConnection) -> Result<T>) -> Result<T> {
         self.connect()?;
         let Some(connection) = &mut self.connection else { return Err(self.unreachable("no connection")) };
-        let worked = self.runtime.block_on(async { tokio::time::timeout(WORK, work(connection)).await });
+        let worked = self.runtime.block_on(async { tokio::time::timeout(self.patience, work(connection)).await });
         match worked {
             Ok(Ok(value)) => Ok(value),
             Ok(Err(error)) => {

@@ -5,11 +5,11 @@ use std::time::{Duration, Instant};
 use sqlx::PgConnection;
 
 use super::changes::Changes;
-use super::failure::Failure;
 use super::link::{Link, is_collision, is_locked};
 use super::rows;
 use super::tables::Template;
 use crate::error::{Error, Result};
+use crate::failure::Failure;
 
 /// Entries of the log that are kept, for services that lag behind; who is farther behind reads all rows.
 const KEPT: i64 = 512;

@@ -8,7 +8,6 @@ use sqlx::SqliteConnection;
 
 use super::capture::{Capture, Known};
 use super::changes::{self, Changes, File};
-use super::failure::Failure;
 use super::link::Link;
 use super::log::{self, Draft, Lease};
 use super::place::Place;
@@ -17,6 +16,7 @@ use super::schema;
 use super::tables::Template;
 use super::upkeep::Upkeep;
 use crate::error::{Error, Result};
+use crate::failure::Failure;
 
 /// How long the right to write lasts that nobody keeps up: so long nobody writes after a service was killed at work.
 const LEASE: Duration = Duration::from_secs(5);

@@ -4,20 +4,20 @@ use std::path::Path;
 
 use futures_util::TryStreamExt;
 use sqlx::postgres::{PgArguments, PgRow};
-use sqlx::{Arguments, AssertSqlSafe, PgConnection, Row};
+use sqlx::{Arguments, AssertSqlSafe, PgConnection, Row, SqliteConnection};
 
 use super::capture;
 use super::changes::{self, Changes, File, Object, Rows};
-use super::failure::Failure;
 use super::link::Link;
 use super::place::Place;
 use super::schema;
 use super::tables::{Kind, Table, Template};
 use crate::cell::Cell;
-use crate::connection::Connection;
+use crate::connection::{self, Connection};
 use crate::dynamic::identifier;
 use crate::error::{Error, Result};
-use crate::store::Store;
+use crate::failure::Failure;
+use crate::migrate::{self, STEPS};
 use crate::worlds;
 
 /// Rows that one statement takes.
@@ -45,32 +45,39 @@ pub(super) fn unknown(link: &mut Link, site: &str) -> Error {
     }
 }
 
+/// All that a database holds of a site, on its way into PostgreSQL.
+pub(crate) struct Leaving {
+    template: Template,
+    changes: Changes,
+    generation: i64,
+}
+
+impl Leaving {
+    /// Reads it.
+    pub(crate) async fn read(connection: &mut SqliteConnection) -> Result<Self> {
+        let template = Template::new(worlds::are_kept(connection).await?).await?;
+        let changes = capture::everything(connection, &template).await?;
+        let generation = crate::site::value(connection, "generation").await?;
+        Ok(Self { template, changes, generation: generation.and_then(|text| text.parse().ok()).unwrap_or(0) })
+    }
+}
+
 /// Puts a site into PostgreSQL: all that is in its database, and its files.
-///
-/// # Arguments
-/// `replace`: whether one of that name is replaced; services on it go on with the new one.
-pub fn copy_in(
-    store: &mut Store,
+pub(crate) fn copy_in(
+    leaving: Leaving,
     files: &[File],
     (place, site): (&Place, &str),
     replace: bool,
 ) -> Result<()> {
+    let Leaving { template, mut changes, generation } = leaving;
     let mut link = Link::new(place)?;
-    let make = async |_: &mut sqlx::SqliteConnection| Template::new(true).await;
-    let all = store.run(make)?;
+    let all = link.apart(async { Template::new(true).await })?;
     schema::make(&mut link, &all)?;
-    let (template, mut changes, generation) = store.snapshot(|tx| {
-        tx.run(async |connection| {
-            let template = Template::new(worlds::are_kept(connection).await?).await?;
-            let changes = capture::everything(connection, &template).await?;
-            let generation = crate::site::value(connection, "generation").await?;
-            Ok((template, changes, generation.and_then(|text| text.parse().ok()).unwrap_or(0_i64)))
-        })
-    })?;
     let keeps_worlds = template.keeps_worlds();
     changes.files = files.to_vec();
     let exists = Failure::SiteExists { place: place.shown(), site: site.to_owned() };
     let tables: Vec<Table> = all.tables.values().cloned().collect();
+    link.whole(true);
     let put = link.again(async |connection| {
         sqlx::raw_sql("BEGIN").execute(&mut *connection).await?;
         let sql = "SELECT entry FROM adit.sites WHERE site = $1 FOR UPDATE";
@@ -125,15 +132,12 @@ pub(super) struct Whole {
 impl Whole {
     /// Makes a database of it.
     pub(super) fn make(&self, file: &Path) -> Result<()> {
-        let kept = if self.worlds {
-            drop(Store::create(file)?);
-            Store::open_for_worlds(file)?
-        } else {
-            Store::create(file)?
-        };
-        drop(kept);
-        let options = crate::connection::options(file, std::time::Duration::from_secs(5))?;
+        let options = connection::options(file, std::time::Duration::from_secs(5))?.create_if_missing(true);
         let mut connection = Connection::open(file, &options)?;
+        connection.run(async |connection| {
+            migrate::migrate(connection, file, STEPS).await?;
+            if self.worlds { migrate::keep_worlds(connection, file).await } else { Ok(()) }
+        })?;
         connection.execute("BEGIN IMMEDIATE")?;
         connection.run(async |connection| {
             capture::fill(connection, Template::new(self.worlds).await?, &self.changes).await
@@ -144,6 +148,7 @@ impl Whole {
 
 /// Reads a whole site, all of it at one moment.
 pub(super) fn snapshot(link: &mut Link, site: &str) -> Result<(Template, Whole)> {
+    link.whole(true);
     let read = link.again(async |connection| {
         sqlx::raw_sql("BEGIN ISOLATION LEVEL REPEATABLE READ READ ONLY").execute(&mut *connection).await?;
         let sql = "SELECT entry, worlds FROM adit.sites WHERE site = $1";
@@ -159,8 +164,9 @@ pub(super) fn snapshot(link: &mut Link, site: &str) -> Result<(Template, Whole)>
         };
         sqlx::raw_sql("COMMIT").execute(&mut *connection).await?;
         Ok(read)
-    })?;
-    read.ok_or_else(|| unknown(link, site))
+    });
+    link.whole(false);
+    read?.ok_or_else(|| unknown(link, site))
 }
 
 /// Writes what was changed to the rows of the site.

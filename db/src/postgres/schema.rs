@@ -2,11 +2,11 @@
 
 use sqlx::{AssertSqlSafe, PgConnection};
 
-use super::failure::Failure;
 use super::link::Link;
 use super::tables::{Table, Template};
 use crate::dynamic::identifier;
 use crate::error::{Error, Result};
+use crate::failure::Failure;
 use crate::migrate::VERSION;
 
 const SHARED: &str = include_str!("../../sql/postgres/10-shared.sql");

@@ -61,7 +61,7 @@ fn copy_in(args: &CopyArgs) -> Result<(String, String)> {
         site.build(&Silent)?;
     }
     let mut store = Store::open(site.database())?;
-    postgres::copy_in(&mut store, &files, (&place, &name), args.replace)?;
+    store.copy_in(&files, (&place, &name), args.replace)?;
     let words = format!("{} is the site `{name}` in {}", args.from, place.shown());
     Ok((name, words))
 }

@@ -2,6 +2,9 @@
 //!
 //! Each of them keeps a copy of the rows, and a state in memory that steps as the one of the service that wrote. Where a step does
 //! not come to the same rows the state is opened from these.
+//!
+//! This file and the one of its folder know each other in a circle: what is here are functions of [`Live`], which holds what is
+//! known of the other services.
 
 use std::fs::File;
 use std::path::{Path, PathBuf};
