@@ -168,8 +168,7 @@ impl Live {
 
     /// Writes what nothing follows from, in one transaction.
     pub fn write<T>(&mut self, work: impl FnOnce(&mut Tx<'_>) -> Result<T>) -> Result<T> {
-        self.lead()?;
-        let written = self.store.transaction(work);
+        let written = self.lead().and_then(|()| self.store.transaction(work));
         self.store.cede();
         written
     }
@@ -184,7 +183,10 @@ impl Live {
     pub fn edit(&mut self, edit: &Edit, author: &Author) -> Result<Outcome> {
         self.site.needs_folder()?;
         if !self.files_of(edit)?.is_empty() {
-            return self.edit_with_files(&KnowledgeBase::clone(&self.site), edit, author);
+            let site = self.lead().map(|()| KnowledgeBase::clone(&self.site));
+            let edited = site.and_then(|site| self.edit_with_files(&site, edit, author));
+            self.store.cede();
+            return edited;
         }
         if self.store.is_copy() {
             return self.edit_shared(edit, author);
@@ -208,17 +210,22 @@ impl Live {
     /// An edit of rule files, and of whatever else belongs to it, of the site as its files now are: files, rows and all that
     /// follows, whole or not at all.
     pub fn edit_with_files(&mut self, site: &KnowledgeBase, edit: &Edit, author: &Author) -> Result<Outcome> {
-        let drafted = Arc::new(site.drafting(self.files_of(edit)?));
+        let drafts = self.files_of(edit)?;
+        self.stage(site, &drafts)?;
+        let drafted = Arc::new(site.drafting(drafts));
         let inputs = drafted.inputs(&Silent)?;
-        let (done, mut memory, report, journal) = self.store.transaction(|tx| -> Result<_> {
+        let written = self.store.transaction(|tx| -> Result<_> {
             let since = tx.history(1)?.first().map_or(0, |entry| entry.id);
             make_tables(tx, &inputs.rules)?;
             let done = edit.apply(tx, &drafted, &inputs.rules, author)?;
             let (memory, report) = Memory::build(tx, &drafted, &inputs, &Silent)?;
             let journal = Journal::begin(tx, drafted.database(), &drafted.rule_folder(), since)?;
             Ok((done, memory, report, journal))
-        })?;
+        });
+        self.store.cede();
+        let (done, mut memory, report, journal) = written?;
         Journal::finish(journal);
+        self.wrote();
         self.site = Arc::new(drafted.with_drafts_saved());
         memory.state.site = Arc::clone(&self.site);
         self.memory = memory;
@@ -258,9 +265,7 @@ impl Live {
             Ok(None) => Ok(None),
             Ok(Some(followed)) => {
                 let outcome = self.accept(followed)?;
-                if let Some(shared) = &mut self.shared {
-                    shared.others = None;
-                }
+                self.wrote();
                 Ok(Some(outcome))
             }
             Err(error) => {

@@ -62,7 +62,8 @@ impl Link {
     pub(super) fn once<T>(&mut self, work: impl AsyncFnOnce(&mut PgConnection) -> Result<T>) -> Result<T> {
         self.connect()?;
         let Some(connection) = &mut self.connection else { return Err(self.unreachable("no connection")) };
-        let worked = self.runtime.block_on(async { tokio::time::timeout(self.patience, work(connection)).await });
+        let worked =
+            self.runtime.block_on(async { tokio::time::timeout(self.patience, work(connection)).await });
         match worked {
             Ok(Ok(value)) => Ok(value),
             Ok(Err(error)) => {

@@ -21,6 +21,7 @@ use crate::edit::Edit;
 use crate::error::{Code, Error, Result};
 use crate::knowledge::KnowledgeBase;
 use crate::knowledge::inputs::Inputs;
+use crate::site::rules::Drafts;
 use crate::site::shared;
 use crate::words::progress::Silent;
 
@@ -128,10 +129,12 @@ impl Live {
         if !self.store.lead()? {
             return Ok(false);
         }
-        let is_newest = self.store.waiting(false)?.is_empty();
+        let waiting = self.store.waiting(false);
+        let is_newest = waiting.as_ref().is_ok_and(Vec::is_empty);
         if !is_newest {
             self.store.cede();
         }
+        waiting?;
         Ok(is_newest)
     }
 
@@ -302,7 +305,9 @@ impl Live {
                 let message = "what another service wrote does not follow from the site's files and tables";
                 return Err(Error::said(Code::LiveStale, message, help));
             }
-            return self.derive(site, &inputs);
+            let derived = self.derive(site, &inputs);
+            self.store.cede();
+            return derived;
         };
         (self.site, self.memory) = (site, memory);
         self.found();
@@ -322,6 +327,23 @@ impl Live {
         })
     }
 
+    /// Has the next transaction keep the site's files, as they will be with these drafts of rules.
+    pub(super) fn stage(&mut self, site: &KnowledgeBase, drafts: &Drafts) -> Result<()> {
+        if self.store.is_copy() {
+            let folder = &site.site().folder;
+            let files = shared::files(folder, &site.files())?;
+            self.store.stage_files(shared::drafted(files, folder, &site.rule_folder(), drafts));
+        }
+        Ok(())
+    }
+
+    /// The newest state is what this service wrote.
+    pub(super) fn wrote(&mut self) {
+        if let Some(shared) = &mut self.shared {
+            shared.others = None;
+        }
+    }
+
     fn found(&mut self) {
         if let Some(shared) = &mut self.shared {
             shared.lost = false;
@@ -330,20 +352,19 @@ impl Live {
 
     /// Derives everything from files and tables, and keeps both.
     pub(super) fn build_shared(&mut self, site: Arc<KnowledgeBase>, inputs: &Arc<Inputs>) -> Result<Outcome> {
-        self.lead()?;
-        self.derive(site, inputs)
+        let built = self.lead().and_then(|()| self.derive(site, inputs));
+        // nobody keeps the right to write up whose work has failed
+        self.store.cede();
+        built
     }
 
     fn derive(&mut self, site: Arc<KnowledgeBase>, inputs: &Arc<Inputs>) -> Result<Outcome> {
-        let files = shared::files(&site.site().folder, &site.files())?;
-        self.store.stage_files(files);
+        self.stage(&site, &Drafts::new())?;
         let built = site.build_in(&mut self.store, inputs, &Silent);
         self.store.cede();
         let (memory, report) = built?;
         (self.site, self.memory) = (site, memory);
-        if let Some(shared) = &mut self.shared {
-            shared.others = None;
-        }
+        self.wrote();
         self.found();
         self.ready();
         Ok(anew(report))

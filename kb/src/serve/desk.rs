@@ -140,19 +140,13 @@ impl Desk {
         // what others did before has its own cause
         self.catch_up();
         self.lead()?;
-        let has_files = !self.live.files_of(edit)?.is_empty();
-        let edited = if has_files {
-            // the site as its files are: somebody may have saved another one a moment ago
-            self.shared.settings.open().and_then(|site| self.live.edit_with_files(&site, edit, author))
-        } else {
-            self.live.edit(edit, author)
-        };
+        let edited = self.make(edit, author);
         self.live.cede();
         if edited.is_err() && self.live.view().generation() != self.shared.view.load().view.generation() {
             let outcome = self.live.reopen().map(Some);
             self.report(outcome, &Cause::itself("another program", EDITED));
         }
-        let outcome = edited?;
+        let (outcome, has_files) = edited?;
         let (who, why) = (author.who.clone(), author.why.clone());
         let what = outcome.done.as_ref().map_or_else(String::new, |done| edit.words(done));
         self.publish(&outcome, &Cause { who, why, what });
@@ -160,6 +154,19 @@ impl Desk {
             self.files_are_taken();
         }
         Ok(outcome)
+    }
+
+    /// Makes an edit; with it, whether it has files.
+    fn make(&mut self, edit: &Edit, author: &Author) -> Result<(Outcome, bool)> {
+        let has_files = !self.live.files_of(edit)?.is_empty();
+        let outcome = if has_files {
+            // the site as its files are: somebody may have saved another one a moment ago
+            let site = self.shared.settings.open()?;
+            self.live.edit_with_files(&site, edit, author)?
+        } else {
+            self.live.edit(edit, author)?
+        };
+        Ok((outcome, has_files))
     }
 
     /// Shows the site as it now is, and says what changed.

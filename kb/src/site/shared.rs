@@ -7,6 +7,7 @@ use std::path::{Component, Path, PathBuf};
 use adit_db::postgres::File;
 use siphasher::sip::SipHasher13;
 
+use super::rules::Drafts;
 use super::whole;
 use crate::error::{Code, Error, Result};
 
@@ -73,6 +74,23 @@ fn in_folder(folder: &Path) -> Result<Vec<File>> {
     Ok(found)
 }
 
+/// The files as they are once drafts of rule files are saved in their folder.
+pub fn drafted(mut files: Vec<File>, folder: &Path, rules: &Path, drafts: &Drafts) -> Vec<File> {
+    let Ok(below) = rules.strip_prefix(folder) else { return files };
+    for (name, text) in drafts {
+        let path: Vec<String> = below
+            .join(name)
+            .components()
+            .map(|part| part.as_os_str().to_string_lossy().into_owned())
+            .collect();
+        let path = path.join("/");
+        files.retain(|file| file.path != path);
+        files.extend(text.as_ref().map(|text| File { path, bytes: Some(text.clone().into_bytes()) }));
+    }
+    files.sort_by(|one, other| one.path.cmp(&other.path));
+    files
+}
+
 /// Has a folder to oneself, until what is given back goes: two services would write each other's files.
 pub fn lock(folder: &Path) -> Result<fs::File> {
     fs::create_dir_all(folder).map_err(|error| Error::io("make", folder, &error))?;
@@ -87,7 +105,7 @@ pub fn lock(folder: &Path) -> Result<fs::File> {
 
 /// Where a folder has a service's copy of the rows, which is made anew: what a service left that was killed is taken away.
 pub fn copy(folder: &Path) -> PathBuf {
-    for end in ["", "-journal", "-wal", "-shm"] {
+    for end in ["", "-journal", "-wal", "-shm", "-files"] {
         fs::remove_file(folder.join(format!("{COPY}{end}"))).ok();
     }
     folder.join(COPY)
@@ -99,7 +117,14 @@ pub fn take(folder: &Path, name: &str, files: &[File]) -> Result<()> {
     let there = in_folder(folder)?;
     let mark = folder.join(MARK);
     let is_ours = fs::read_to_string(&mark).is_ok_and(|text| text == sign(name, &there));
-    if !there.is_empty() && there != files && !is_ours {
+    let is_marked = marked(folder).as_deref() == Some(name);
+    if is_marked && !is_ours {
+        // a service that was killed while it wrote them, or somebody who edited them meanwhile
+        for file in there.iter().filter(|file| !files.contains(file)) {
+            let kept = folder.join(format!("{}~", file.path));
+            whole::write(&kept, file.bytes.as_deref().unwrap_or_default())?;
+        }
+    } else if !there.is_empty() && there != files && !is_ours {
         let other: BTreeMap<&String, &File> = files.iter().map(|file| (&file.path, file)).collect();
         let differs = there.iter().find(|file| other.get(&file.path) != Some(file));
         let differs = differs.map_or("a file is missing", |file| file.path.as_str());
