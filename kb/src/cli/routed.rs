@@ -80,7 +80,7 @@ impl Setting {
     }
 
     pub fn missions<'l>(&'l self, live: &'l mut Live, tells: bool) -> Missions<'l> {
-        Missions { live, ground: &self.ground, rules: &self.rules, tells }
+        Missions::new(live, (&self.ground, &self.rules), tells)
     }
 }
 

@@ -91,6 +91,11 @@ impl State {
         basis.found(&goals, blank).map(|(answer, _)| answer)
     }
 
+    /// What is so after edits, which nobody keeps.
+    pub(crate) fn after(self, edits: &[Edit]) -> Result<Self> {
+        self.on_errand(edits, &Errand::default(), None)
+    }
+
     /// What is so on an errand after edits, which are taken back with it.
     fn on_errand(mut self, edits: &[Edit], errand: &Errand, robot: Option<&str>) -> Result<Self> {
         if errand.at.is_some() {

@@ -5,6 +5,7 @@ use std::mem;
 use std::time::Instant;
 
 use adit_db::history::Author;
+use adit_db::route::Waypoint;
 use adit_engine::{Considered, RuleBase};
 use adit_planners::body::Body;
 use adit_planners::geometry::{Point, Rect, Segment, polygon};
@@ -21,6 +22,7 @@ use crate::error::{Code, Error, Result};
 use crate::live::Live;
 use crate::navigation::body::Remote;
 use crate::site::clock::stored;
+use crate::state::State;
 
 /// A robot that is a little off is taken to be where it fits, up to so far, metres.
 const OFF_M: f64 = 0.5;
@@ -32,6 +34,8 @@ const HAIR_M: f64 = 1e-3;
 struct Site<'l> {
     live: &'l mut Live,
     ground: &'l Ground,
+    /// The site for a robot that is wider, as it was asked first.
+    wide: &'l mut Option<State>,
     mission: usize,
     /// When it began: what was laid on another run under the same number is another thing.
     begun: String,
@@ -44,6 +48,17 @@ struct Site<'l> {
     /// What became of it, in sentences.
     said: Vec<String>,
     trouble: Option<Error>,
+}
+
+/// What is asked of the site.
+struct Ask<'m> {
+    ends: [Point; 2],
+    shape: usize,
+    met: &'m [Met],
+    /// Each of the things that it met is so much thicker than it was seen, at the least, metres.
+    room_m: f64,
+    /// Whether more room is wanted beside what the map has, too.
+    is_wide: bool,
 }
 
 impl Router for Site<'_> {
@@ -62,32 +77,27 @@ impl Site<'_> {
             let things = self.things(met, from, 0.0);
             self.tell(&things)?;
         }
-        let lean = self.asked([from, to], shape, met, 0.0)?;
-        let Some(least) = lean.as_ref().and_then(|lean| lean.cost).filter(|_| !met.is_empty()) else {
-            return Ok(lean.and_then(|lean| self.ground.stretches(&lean)));
-        };
-        // farther from what it met, where that costs little
+        let lean = self.asked(&Ask { ends: [from, to], shape, met, room_m: 0.0, is_wide: false })?;
+        let Some(least) = lean.as_ref().and_then(|lean| lean.cost) else { return Ok(None) };
+        // farther from what stands and from what it met, where that costs little
         let settings = &self.ground.driving.navigation;
-        for room_m in [settings.detour_room_m, settings.detour_clearance_m] {
-            let roomy = self.asked([from, to], shape, met, room_m)?;
-            if let Some(roomy) =
-                roomy.filter(|roomy| roomy.cost.is_some_and(|cost| cost <= settings.room_worth * least))
-            {
+        let rooms: &[f64] =
+            if met.is_empty() { &[0.0] } else { &[settings.detour_room_m, settings.detour_clearance_m] };
+        let worth = settings.room_worth * least;
+        let wide = rooms.iter().map(|room_m| (*room_m, true)).filter(|_| settings.beside_m > 0.0);
+        let narrow = rooms.iter().map(|room_m| (*room_m, false)).filter(|_| !met.is_empty());
+        for (room_m, is_wide) in wide.chain(narrow) {
+            let roomy = self.asked(&Ask { ends: [from, to], shape, met, room_m, is_wide })?;
+            if let Some(roomy) = roomy.filter(|roomy| roomy.cost.is_some_and(|cost| cost <= worth)) {
                 return Ok(self.ground.stretches(&roomy));
             }
         }
         Ok(lean.and_then(|lean| self.ground.stretches(&lean)))
     }
 
-    /// The best route where things stand that the robot met, each thicker than it saw them by so many metres at the least; `None`
-    /// where there is none, or only one that ends beside the goal.
-    fn asked(
-        &self,
-        [from, to]: [Point; 2],
-        shape: usize,
-        met: &[Met],
-        least_m: f64,
-    ) -> Result<Option<Answer>> {
+    /// The best route where things stand that the robot met; `None` where there is none, or only one that ends beside the goal.
+    fn asked(&mut self, ask: &Ask<'_>) -> Result<Option<Answer>> {
+        let Ask { ends: [from, to], shape, met, room_m: least_m, is_wide } = *ask;
         let lay = |what: &'static str| {
             move |(number, thing): (usize, Vec<Point>)| {
                 Edit::Lay(laid(format!("{what} in this mission, {number}"), &thing))
@@ -109,17 +119,36 @@ impl Site<'_> {
             ..Errand::default()
         };
         let goal = named_point(to);
-        let ask = |errand: &Errand| asked(self.live, &edits, (from, &goal), errand, &self.ground.robot);
-        let answer = ask(&errand)?;
+        let beside_m = self.ground.driving.navigation.beside_m;
+        if is_wide {
+            edits.extend(wider(self.ground, 2.0 * beside_m));
+        }
+        let state = if is_wide { self.wide()? } else { self.live.fork() };
+        let ask =
+            |state: State, errand: &Errand| asked(state, &edits, (from, &goal), errand, &self.ground.robot);
+        let answer = ask(state.fork(), &errand)?;
         // where its shape does not fit by what it saw, another one may
         let answer =
-            if answer.cost.is_none() { ask(&Errand { start_state: None, ..errand })? } else { answer };
+            if answer.cost.is_none() { ask(state, &Errand { start_state: None, ..errand })? } else { answer };
+        let is_near = |waypoint: Option<&Waypoint>, to: Point, metres: f64| {
+            waypoint.is_some_and(|waypoint| Point::new(waypoint.x, waypoint.y).distance(to) <= metres)
+        };
         let ends_there = |answer: &Answer| {
-            answer.waypoints.last().is_some_and(|last| {
-                Point::new(last.x, last.y).distance(to) <= self.ground.driving.navigation.goal_tolerance_m
-            })
+            is_near(answer.waypoints.last(), to, self.ground.driving.navigation.goal_tolerance_m)
+                // whoever stands where only the narrow fits goes on in the narrow
+                && (!is_wide || is_near(answer.waypoints.first(), from, 2.0 * beside_m))
         };
         Ok(Some(answer).filter(|answer| answer.cost.is_some() && ends_there(answer)))
+    }
+
+    /// The site for a robot that is a little wider. It is cut anew for it once.
+    fn wide(&mut self) -> Result<State> {
+        if self.wide.is_none() {
+            let edits: Vec<Edit> =
+                wider(self.ground, 2.0 * self.ground.driving.navigation.beside_m).collect();
+            *self.wide = Some(self.live.fork().after(&edits)?);
+        }
+        Ok(self.wide.as_ref().map_or_else(|| self.live.fork(), State::fork))
     }
 
     /// What the robot saw and did not know of, as outlines of things that stand on the map; none stands where the robot does, or
@@ -235,17 +264,25 @@ fn things(all: impl IntoIterator<Item = Vec<Point>>, clear: &[Point]) -> Vec<Vec
     things
 }
 
+/// What makes a robot wider in each of its states.
+fn wider(ground: &Ground, by_m: f64) -> impl Iterator<Item = Edit> + '_ {
+    ground.states.iter().zip(&ground.shapes.all).map(move |(state, shape)| {
+        let key = format!("{}/{state}", ground.robot);
+        let width = format!("{:?}", 2.0 * shape.radius_m + by_m);
+        Edit::Set("robots".to_owned(), key, "width".to_owned(), width)
+    })
+}
+
 /// A route from where a robot is, or may be, on an errand, after edits that nobody keeps.
 fn asked(
-    live: &Live,
+    state: State,
     edits: &[Edit],
     (from, goal): (Point, &str),
     errand: &Errand,
     robot: &str,
 ) -> Result<Answer> {
     let start = named_point(from);
-    let state = live.fork().within(Some(OFF_M))?;
-    state.route_after(edits, errand, (&start, goal), robot)
+    state.within(Some(OFF_M))?.route_after(edits, errand, (&start, goal), robot)
 }
 
 /// As ends of routes name it.
@@ -272,6 +309,19 @@ pub struct Missions<'l> {
     pub rules: &'l std::sync::Arc<RuleBase>,
     /// Whether the site is told what the robot meets.
     pub tells: bool,
+    /// Where ways are looked for that leave more room.
+    wide: Option<State>,
+}
+
+impl<'l> Missions<'l> {
+    /// Missions of a robot by rules that drive it; the site is told what it meets where `tells`.
+    pub fn new(
+        live: &'l mut Live,
+        (ground, rules): (&'l Ground, &'l std::sync::Arc<RuleBase>),
+        tells: bool,
+    ) -> Self {
+        Self { live, ground, rules, tells, wide: None }
+    }
 }
 
 impl Missions<'_> {
@@ -291,7 +341,7 @@ impl Missions<'_> {
                 let mission =
                     draw_along(&self.ground.plan, &self.ground.doorways, radius, seed, |start, goal| {
                         match asked(
-                            self.live,
+                            self.live.fork(),
                             &[],
                             (start, &named_point(goal)),
                             &Errand::default(),
@@ -331,7 +381,8 @@ impl Missions<'_> {
     ) -> Result<(Journal, Vec<String>)> {
         let before = Instant::now();
         let (ground, goal) = (self.ground, named_point(mission.goal));
-        let first = asked(self.live, &[], (mission.start.at, &goal), &Errand::default(), &ground.robot)?;
+        let first =
+            asked(self.live.fork(), &[], (mission.start.at, &goal), &Errand::default(), &ground.robot)?;
         let shape = self.first_shape(&first, mission.start.at)?;
         let judged = self.judged(mission, &goal, shape)?;
         let (on, outfit) = ground.stage(shape);
@@ -384,6 +435,7 @@ impl Missions<'_> {
         let mut site = Site {
             live: self.live,
             ground: self.ground,
+            wide: &mut self.wide,
             mission: number,
             begun,
             tells: self.tells,
@@ -433,23 +485,14 @@ impl Missions<'_> {
         });
         let mut edits: Vec<Edit> = boxes.collect();
         let ends = (mission.start.at, goal);
-        let known = asked(self.live, &edits, ends, &errand, &self.ground.robot)?;
-        edits.extend(self.wider(2.0 * ROOM_M));
-        let roomy = asked(self.live, &edits, ends, &errand, &self.ground.robot)?;
+        let known = asked(self.live.fork(), &edits, ends, &errand, &self.ground.robot)?;
+        edits.extend(wider(self.ground, 2.0 * ROOM_M));
+        let roomy = asked(self.live.fork(), &edits, ends, &errand, &self.ground.robot)?;
         Ok(Judged {
             is_possible: known.cost.is_some(),
             is_with_room: roomy.cost.is_some(),
             least_cost: known.cost,
             optimum_m: known.distance,
-        })
-    }
-
-    /// What makes the robot wider in each of its states.
-    fn wider(&self, by_m: f64) -> impl Iterator<Item = Edit> + '_ {
-        self.ground.states.iter().zip(&self.ground.shapes.all).map(move |(state, shape)| {
-            let key = format!("{}/{state}", self.ground.robot);
-            let width = format!("{:?}", 2.0 * shape.radius_m + by_m);
-            Edit::Set("robots".to_owned(), key, "width".to_owned(), width)
         })
     }
 }

@@ -24,14 +24,15 @@ settings! {
             falling_m: f64 = 0.05, "falling", "m", NotNegative, "The goal point is farther away than it was from so much on.";
             detour_clearance_m: f64 = 0.05, "detour_clearance", "m", Room, "What a detour keeps free on either side of the robot at the least.";
             detour_room_m: f64 = 0.10, "room", "m", Room, "What a detour keeps free where there is room.";
-            room_worth: f64 = 1.3, "room_worth", "", Positive, "A detour with room may be longer than one without by this factor.";
+            room_worth: f64 = 1.3, "room_worth", "", Positive, "A way with room may be longer, or harder, than one without by this factor.";
+            beside_m: f64 = 0.02, "beside", "m", Room, "A site is asked first for ways that leave so much more beside the robot than it needs.";
             corner_m: f64 = 0.05, "corner", "m", Room, "A surface that was seen to end may go on unseen, between two beams, for so much at the most.";
             squeeze_m: f64 = 0.025, "squeeze", "m", Room, "What is kept free on either side where there is no other way: a little more than on the highway.";
             most_squeezes: u32 = 4, "most_squeezes", "", Times, "So many times on a mission the robot squeezes through.";
             detour_reach_m: f64 = 2.0, "detour_reach", "m", Positive, "A detour leaves the rectangle about its ends by at most so much.";
             grain_m: f64 = 0.04, "grain", "m", Grain, "The grain of the search for detours.";
             back_off_m: f64 = 0.15, "back_off", "m", Positive, "How far the robot withdraws from what it touched.";
-            change_room_m: f64 = 0.25, "change_room", "m", Room, "What is kept free on either side of the robot where it changes its shape, if there is such a place.";
+            change_room_m: f64 = 0.10, "change_room", "m", Room, "What is kept free on either side of the robot where it changes its shape, if there is such a place.";
             change_reach_m: f64 = 1.5, "change_reach", "m", NotNegative, "So far before or behind the place that a route says the robot changes its shape, to have room.";
             felt_s: f64 = 90.0, "felt", "s", NotNegative, "What was touched is in the way for so long.";
             least_confidence: u8 = 2, "least_confidence", "", Count, "Surfaces of less confidence close no way for good.";

@@ -20,8 +20,10 @@ pub struct Stretch {
 const FINE_M: f64 = 0.05;
 const DIRECTIONS: usize = 16;
 
-/// Times that a point is moved away from what is nearest to it.
+/// Times that a point is moved away from what is nearest to it, each by the best of these shares of what it lacks: between
+/// walls all of it is too much.
 const MOVES: usize = 4;
+const SHARES: [f64; 4] = [1.0, 0.5, 0.25, 0.125];
 
 /// The same way for a robot that is not exactly where it thinks that it is: it changes its shape where there is room for that,
 /// in both shapes, up to `change_reach` before or behind where the way says; and its points keep `room` free where that does
@@ -154,12 +156,16 @@ impl Near {
         let along = |at: Point| self.gap(before, at).min(self.gap(at, after));
         for _ in 0..MOVES {
             let at = points[place];
-            let Some(moved) = self.away(at, room).filter(|moved| along(*moved) > along(at)) else { return };
-            points[place] = moved;
+            let Some(away) = self.away(at, room) else { return };
+            let moved = SHARES.map(|share| at.lerp(away, share));
+            let best = moved.into_iter().max_by(|one, other| along(*one).total_cmp(&along(*other)));
+            let Some(best) = best.filter(|best| along(*best) > along(at) + ROUNDING_M) else { return };
+            points[place] = best;
         }
     }
 
-    /// A point so far away from what is nearest to a point that `room` is free; `None` where it is.
+    /// A point so far away from what is nearest to a point that `room` would be free if nothing else stood there; `None` where it
+    /// is free.
     fn away(&self, at: Point, room: f64) -> Option<Point> {
         let feet = self.barriers.iter().map(|barrier| barrier.nearest_to(at));
         let foot = feet.min_by(|one, other| at.distance(*one).total_cmp(&at.distance(*other)))?;
@@ -228,5 +234,15 @@ mod tests {
         let points = vec![Point::new(2.0, 0.5), Point::new(5.0, 1.3), Point::new(8.0, 0.5)];
         let way = with_room(vec![Stretch { shape: 0, points }], &[building], &[], &Settings::default());
         assert!(way[0].points[1].distance(Point::new(5.0, 1.4)) < 1e-9, "{way:?}");
+    }
+
+    #[test]
+    fn a_bend_in_a_narrow_passage_goes_to_its_middle() {
+        let walls = vec![line(0.0, 0.0, 10.0, 0.0), line(0.0, 0.64, 10.0, 0.64)];
+        let building = Building::of_walls(Network::none(Disc { radius: 0.3, margin: 0.0 }), walls);
+        let points = vec![Point::new(2.0, 0.32), Point::new(5.0, 0.302), Point::new(8.0, 0.32)];
+        let way = with_room(vec![Stretch { shape: 0, points }], &[building], &[], &Settings::default());
+        let off = way[0].points.iter().map(|at| (at.y - 0.32).abs()).fold(0.0, f64::max);
+        assert!(off < 0.005, "{way:?}");
     }
 }

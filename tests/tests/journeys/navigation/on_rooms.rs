@@ -39,6 +39,30 @@ fn from_the_dock_to_ward_12_it_goes_on_its_knees_and_sideways_as_the_route_says(
 }
 
 #[test]
+fn it_goes_through_the_gap_with_room_where_that_costs_little_and_through_the_other_one_where_it_is_told_to() {
+    // a wall with a gap that leaves STAND 1 cm on either side, on the straight way, and a wide one a little off
+    let map = "width = 12.0\ndepth = 8.0\nobstacle = [\n  { rect = [5.8, 0, 6.2, 1.69] },\n  { rect = [5.8, 2.31, 6.2, 3.5] },\n  { rect = [5.8, 5.0, 6.2, 8] },\n]\n[[place]]\nname = \"dock\"\nat = [1.0, 2.0]\n[[place]]\nname = \"bench\"\nat = [11.0, 2.0]\n";
+    let site = TestSite::example("clinic");
+    site.write("map.toml", map);
+    let settings = "name = \"two gaps\"\nmap = \"map.toml\"\nrobots = \"robots.toml\"\nrooms = \"by-state\"\nstarts = [\"dock\"]\ngrid = 0.05\n";
+    site.write("site.toml", format!("{settings}\n[navigation]\nbeside = 0.02\n"));
+    let site = site.built();
+    let driven = || {
+        let row = rows(&site, &["dock", "bench"])[0].clone();
+        assert_eq!((&row["ending"], &row["touches"]), (&"arrived".into(), &0.into()), "{row}");
+        row["length"].as_f64().expect("metres")
+    };
+    let with_room = driven();
+    site.adit("tune", &["navigation", "beside", "value", "0"]).expect_status(0);
+    let straight = driven();
+    assert!(straight < 10.1 && with_room > 10.2, "{straight} and {with_room}");
+    // and where the way with room is too long for its room
+    site.adit("tune", &["navigation", "beside", "value", "0.02"]).expect_status(0);
+    site.adit("tune", &["navigation", "room_worth", "value", "1.01"]).expect_status(0);
+    assert!(driven() < 10.1, "room is not worth so much");
+}
+
+#[test]
 fn boxes_that_nobody_knows_of_are_passed_or_said_to_shut_the_way_and_nothing_is_claimed_wrongly() {
     for (name, robot) in [("hospital", None), ("depot", Some("crawler"))] {
         let site = TestSite::example(name).built();
