@@ -45,7 +45,7 @@ use crate::plan::course::Course;
 use crate::plan::legs;
 use crate::site::alone;
 use crate::site::base::{self, Base};
-use crate::site::clock::{Clock, stored};
+use crate::site::clock::{Clock, Dial, stored};
 use crate::site::hours::Opening;
 use crate::site::journal;
 use crate::site::lint;
@@ -156,6 +156,7 @@ pub struct KnowledgeBase {
     drafts: Arc<Drafts>,
     pub(crate) reseed: bool,
     at: Option<Timestamp>,
+    pub(crate) dial: Dial,
     pub(crate) within: Option<f64>,
     /// The file and the folder of a map that is a site alone.
     alone: Option<(PathBuf, Arc<TempDir>)>,
@@ -193,6 +194,7 @@ impl KnowledgeBase {
             drafts: Arc::default(),
             reseed: false,
             at: None,
+            dial: Dial::default(),
             within: None,
             alone: None,
         };
@@ -339,7 +341,7 @@ impl KnowledgeBase {
     }
 
     pub(crate) fn clock(&self) -> Clock {
-        Clock::new(self.at, self.site.zone.as_ref().unwrap_or(&TimeZone::UTC))
+        Clock::new(self.at.or_else(|| self.dial.read()), self.site.zone.as_ref().unwrap_or(&TimeZone::UTC))
     }
 
     pub(crate) const fn is_map_alone(&self) -> bool {

@@ -339,6 +339,10 @@ impl Live {
     }
 
     /// A copy of what is known, in memory only, to try edits on.
+    pub(crate) fn generation(&self) -> u64 {
+        self.memory.state.generation
+    }
+
     pub fn fork(&self) -> State {
         self.memory.state.fork()
     }

@@ -16,6 +16,7 @@ pub mod reporting;
 pub mod routed;
 mod story;
 mod stretches;
+pub mod together;
 pub mod told;
 pub mod tours;
 mod walks;

@@ -149,6 +149,19 @@ impl Simulator {
         self.shape
     }
 
+    /// The radius of the robot, metres; while it changes its shape, of the wider one.
+    pub fn widest_m(&self) -> f64 {
+        self.radius_m().max(self.shapes.all[self.becoming()].radius_m)
+    }
+
+    /// The shape into which it changes; the one in which it is, where it does not.
+    fn becoming(&self) -> usize {
+        match self.task {
+            Task::Change { to, .. } => to,
+            _ => self.shape,
+        }
+    }
+
     /// How deep something is within the robot, metres; below 0 where there is a gap. While it changes its shape, in either one.
     pub fn overlap_m(&self) -> f64 {
         let at = self.pose.at;
@@ -159,11 +172,7 @@ impl Simulator {
             let above = overhead.iter().map(|low| low.signed_distance(at)).fold(f64::INFINITY, f64::min);
             radius_m - nearest.min(above)
         };
-        let becoming = match self.task {
-            Task::Change { to, .. } => to,
-            _ => self.shape,
-        };
-        in_shape(self.shape).max(in_shape(becoming))
+        in_shape(self.shape).max(in_shape(self.becoming()))
     }
 
     /// Takes the robot elsewhere, of which its wheels count nothing, and stops it.
@@ -175,6 +184,12 @@ impl Simulator {
             Err(_) => self.pose = before,
         }
         free
+    }
+
+    /// Puts things that stand, by their corners, in place of the obstacles that there were.
+    pub fn place(&mut self, things: Vec<Vec<Point>>) {
+        let standing = things.into_iter().map(|corners| Mover::new(Obstacle { corners, course: None }));
+        self.movers = standing.collect();
     }
 
     /// Where the wheels' count puts the robot, from the pose 0, 0, 0 at the beginning.

@@ -68,6 +68,17 @@ pub struct SimulateArgs {
     /// Keep each mission with its journal in this database
     #[arg(long, value_name = "FILE")]
     pub db: Option<PathBuf>,
+    /// So many robots at once, where rooms are cut by state: each drives from errand to errand, in the way of the others, and hears
+    /// what they tell the site
+    #[arg(long, value_name = "N", requires = "tell", conflicts_with_all = ["start", "film", "learn", "learned", "curve"],
+          value_parser = clap::value_parser!(u8).range(2..=32))]
+    pub robots: Option<u8>,
+    /// Until when they set out on errands
+    #[arg(long, value_name = "MINUTES", requires = "robots", default_value_t = 10, value_parser = clap::value_parser!(u16).range(1..))]
+    pub minutes: u16,
+    /// In so many doorways people open and shut doors meanwhile
+    #[arg(long, value_name = "N", requires = "robots", default_value_t = 0)]
+    pub doors: u8,
     /// Tell the site what the robot meets: which doorways it finds blocked (`DOORWAYS.blocked`), where rules decide what follows;
     /// what stands in its way, where rooms are cut by state, for an hour
     #[arg(long, conflicts_with_all = ["learn", "learned", "curve"])]

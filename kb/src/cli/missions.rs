@@ -35,6 +35,7 @@ pub(super) fn show(rows: &[Row]) {
             None => "not judged",
         };
         vec![
+            row.robot.clone().unwrap_or_default(),
             row.mission.to_string(),
             row.ending.to_owned(),
             row.truth.as_ref().map_or_else(String::new, |truth| truth.obstacles.to_string()),
@@ -46,10 +47,13 @@ pub(super) fn show(rows: &[Row]) {
             if row.has_collided() { "COLLIDED".to_owned() } else { judged.to_owned() },
         ]
     });
-    table(
-        &["mission", "ending", "obstacles", "metres", "over optimum", "detours", "replans", "seconds", ""],
-        cells,
-    );
+    let heads =
+        ["mission", "ending", "obstacles", "metres", "over optimum", "detours", "replans", "seconds", ""];
+    if rows.iter().any(|row| row.robot.is_some()) {
+        table(&[&["robot"], &heads[..]].concat(), cells);
+    } else {
+        table(&heads, cells.map(|cells| cells[1..].to_vec()));
+    }
     summary(rows);
 }
 
@@ -69,7 +73,11 @@ fn summary(rows: &[Row]) {
         touches,
         if touches == 1 { "" } else { "es" },
     ));
-    if rows.iter().any(|row| row.right().is_none()) {
+    if rows.iter().any(|row| row.right().is_none() && row.robot.is_some()) {
+        line(
+            "not judged: doors and robots come and go, so nobody can say afterwards whether there was a way",
+        );
+    } else if rows.iter().any(|row| row.right().is_none()) {
         line("not judged: rules let nobody through some doorway, and the judge knows of walls alone");
     }
     let possible = |with_room, radius| {
@@ -82,10 +90,12 @@ fn summary(rows: &[Row]) {
     };
     let ((possible, by_room), (between, by_luck), (impossible, by_error)) =
         (possible(true, true), possible(false, true), possible(false, false));
-    line(&format!(
-        "{possible} possible with room: {by_room} arrived; {between} possible without: {by_luck} arrived; \
-         {impossible} impossible: {by_error} arrived"
-    ));
+    if possible + between + impossible > 0 {
+        line(&format!(
+            "{possible} possible with room: {by_room} arrived; {between} possible without: {by_luck} arrived; \
+             {impossible} impossible: {by_error} arrived"
+        ));
+    }
     let arrived = || rows.iter().filter(|row| row.ending == "arrived");
     let spreads: [(&str, Vec<f64>); 6] = [
         ("length over optimum", arrived().filter_map(Row::over_optimum).collect()),

@@ -16,6 +16,7 @@ use crate::live::Live;
 use crate::navigation::ground::Ground;
 use crate::navigation::missions::Row;
 use crate::navigation::routed::Missions;
+use crate::navigation::together::Together;
 use crate::plan::rules::{Kind, load_over};
 use crate::site::base::Base;
 use crate::site::whole;
@@ -26,6 +27,9 @@ pub fn run(args: &SimulateArgs, mut live: Live) -> Result<bool> {
     check(args)?;
     let setting = Setting::new(&live, args.robot.as_deref(), args.tell)?;
     let mut on = setting.missions(&mut live, args.tell);
+    if let Some(robots) = args.robots {
+        return together(args, usize::from(robots), &setting, &mut on);
+    }
     let missions = missions(args, &on)?;
     let wanted = filmed(args, &missions)?.is_some();
     let mut kept = Kept::open(setting.of(), args.db.as_deref(), args.keep)?;
@@ -43,6 +47,24 @@ pub fn run(args: &SimulateArgs, mut live: Live) -> Result<bool> {
         whole::write(path, film.svg(args.speed).as_bytes())?;
         remark(&format!("{}: mission {}", path.display(), args.mission));
     }
+    either(args.json, &rows[..], show)?;
+    for text in &said {
+        remark(text);
+    }
+    Ok(are_right(&rows))
+}
+
+/// Has several robots drive at once, and prints a row for each errand; `false` where one ended otherwise than it should.
+fn together(args: &SimulateArgs, robots: usize, setting: &Setting, on: &mut Missions<'_>) -> Result<bool> {
+    let mut kept = Kept::open(setting.of(), args.db.as_deref(), args.keep)?;
+    let seconds = f64::from(args.minutes) * 60.0;
+    let what = Together { robots, seconds, doors: args.doors.into(), seed: args.seed, before: kept.before };
+    let (mut rows, mut said): (Vec<Row>, Vec<String>) = Default::default();
+    on.together(&what, |on, journal, told| {
+        said.extend(told);
+        rows.push(kept.keep(on.live, "simulated mission", journal)?);
+        Ok(())
+    })?;
     either(args.json, &rows[..], show)?;
     for text in &said {
         remark(text);

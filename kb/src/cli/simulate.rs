@@ -37,6 +37,10 @@ pub fn run(args: &SimulateArgs) -> Result<bool> {
     if live.site().course().is_none() {
         return super::routed::run(args, live);
     }
+    if args.robots.is_some() {
+        let message = "--robots is for sites whose rooms are cut by state; on a floor plan one robot drives";
+        return Err(Error::said(Code::SimulateNoFloorPlan, message, None));
+    }
     if args.tell {
         return told(args, live);
     }

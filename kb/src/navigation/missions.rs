@@ -23,6 +23,9 @@ use crate::navigation::body::Remote;
 pub struct Row {
     /// Its number, from 1.
     pub mission: usize,
+    /// Which robot, where several drive at once.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub robot: Option<String>,
     pub start: [f64; 2],
     pub goal: [f64; 2],
     /// `arrived`, `no_way`, `lost`, `silent` or `gave_up`.
@@ -131,6 +134,7 @@ impl Row {
     pub fn of_trip(number: usize, [start, goal]: [Point; 2], trip: &Trip) -> Self {
         Self {
             mission: number,
+            robot: None,
             start: [start.x, start.y],
             goal: [goal.x, goal.y],
             ending: ending(trip.ending),

@@ -30,24 +30,61 @@ const OFF_M: f64 = 0.5;
 /// So far points that stay clear are off what is laid beside them, metres.
 const HAIR_M: f64 = 1e-3;
 
+/// What is seen so near to where another robot says that its rim is, metres, is that robot.
+const NEAR_ROBOT_M: f64 = 0.3;
+
 /// Finds the site's routes, for a robot that is driven on it.
-struct Site<'l> {
-    live: &'l mut Live,
-    ground: &'l Ground,
+pub(super) struct Site<'l> {
+    pub live: &'l mut Live,
+    pub ground: &'l Ground,
     /// The site for a robot that is wider, as it was asked first.
-    wide: &'l mut Option<State>,
+    pub wide: &'l mut Option<State>,
+    /// Whether the site is told what the robot met; otherwise that holds for this mission alone.
+    pub tells: bool,
+    /// Where other robots say that they are, and how wide they are: middle and radius, metres.
+    pub others: &'l [(Point, f64)],
+    pub on: &'l mut OnMission,
+}
+
+/// What a robot has told of what it met on a mission, and what it has heard.
+pub(super) struct OnMission {
+    /// Who it is.
+    pub who: String,
     mission: usize,
     /// When it began: what was laid on another run under the same number is another thing.
     begun: String,
-    /// Whether the site is told what the robot met; otherwise that holds for this mission alone.
-    tells: bool,
     /// What was laid over the map and lies there, by name.
-    told: Vec<(String, Vec<Point>)>,
+    pub told: Vec<(String, Vec<Point>)>,
     /// How much was.
     laid: usize,
+    /// How much was laid or taken back since that was asked last.
+    passed_on: usize,
+    /// The generation of the site of which it knows.
+    known: u64,
     /// What became of it, in sentences.
-    said: Vec<String>,
-    trouble: Option<Error>,
+    pub said: Vec<String>,
+    pub trouble: Option<Error>,
+}
+
+impl OnMission {
+    /// At the beginning of a mission of a robot that has told what lies over the map.
+    pub fn begun(live: &Live, who: String, mission: usize, told: Vec<(String, Vec<Point>)>) -> Result<Self> {
+        Ok(Self {
+            who,
+            mission,
+            begun: stored(live.site().moment("0s")?),
+            told,
+            laid: 0,
+            passed_on: 0,
+            known: live.generation(),
+            said: Vec::new(),
+            trouble: None,
+        })
+    }
+
+    pub const fn mission(&self) -> usize {
+        self.mission
+    }
 }
 
 /// What is asked of the site.
@@ -64,17 +101,30 @@ struct Ask<'m> {
 impl Router for Site<'_> {
     fn way(&mut self, ends: [Point; 2], shape: usize, met: &[Met]) -> Option<Vec<Stretch>> {
         let way = self.found(ends, shape, met);
+        self.on.known = self.live.generation();
         way.unwrap_or_else(|error| {
-            self.trouble.get_or_insert(error);
+            self.on.trouble.get_or_insert(error);
             None
         })
+    }
+
+    fn take_told(&mut self) -> usize {
+        mem::take(&mut self.on.passed_on)
+    }
+
+    fn has_news(&mut self) -> bool {
+        if let Err(error) = self.live.catch_up() {
+            self.on.trouble.get_or_insert(error);
+        }
+        let before = mem::replace(&mut self.on.known, self.live.generation());
+        before != self.on.known
     }
 }
 
 impl Site<'_> {
     fn found(&mut self, [from, to]: [Point; 2], shape: usize, met: &[Met]) -> Result<Option<Vec<Stretch>>> {
         if self.tells {
-            let things = self.things(met, from, 0.0);
+            let things = self.things(&self.not_robots(met), from, 0.0);
             self.tell(&things)?;
         }
         let lean = self.asked(&Ask { ends: [from, to], shape, met, room_m: 0.0, is_wide: false })?;
@@ -124,12 +174,25 @@ impl Site<'_> {
             edits.extend(wider(self.ground, 2.0 * beside_m));
         }
         let state = if is_wide { self.wide()? } else { self.live.fork() };
-        let ask =
-            |state: State, errand: &Errand| asked(state, &edits, (from, &goal), errand, &self.ground.robot);
-        let answer = ask(state.fork(), &errand)?;
+        // where it fits nowhere near by what is told, nothing leads on
+        let is_hemmed =
+            |error: &Error| error.problems().iter().any(|problem| problem.code() == Some(Code::RouteSolid));
+        let ask = |state: State, errand: &Errand| match asked(
+            state,
+            &edits,
+            (from, &goal),
+            errand,
+            &self.ground.robot,
+        ) {
+            Err(error) if is_hemmed(&error) => Ok(None),
+            answer => answer.map(Some),
+        };
+        let answer = ask(state.fork(), &errand)?.filter(|answer| answer.cost.is_some());
         // where its shape does not fit by what it saw, another one may
-        let answer =
-            if answer.cost.is_none() { ask(state, &Errand { start_state: None, ..errand })? } else { answer };
+        let answer = match answer {
+            None => ask(state, &Errand { start_state: None, ..errand })?,
+            answer => answer,
+        };
         let is_near = |waypoint: Option<&Waypoint>, to: Point, metres: f64| {
             waypoint.is_some_and(|waypoint| Point::new(waypoint.x, waypoint.y).distance(to) <= metres)
         };
@@ -138,7 +201,7 @@ impl Site<'_> {
                 // whoever stands where only the narrow fits goes on in the narrow
                 && (!is_wide || is_near(answer.waypoints.first(), from, 2.0 * beside_m))
         };
-        Ok(Some(answer).filter(|answer| answer.cost.is_some() && ends_there(answer)))
+        Ok(answer.filter(|answer| answer.cost.is_some() && ends_there(answer)))
     }
 
     /// The site for a robot that is a little wider. It is cut anew for it once.
@@ -165,6 +228,18 @@ impl Site<'_> {
         things(met.iter().enumerate().flat_map(thick), &clear)
     }
 
+    /// What it met, without what others are that drive here: they are gone when somebody comes by.
+    fn not_robots(&self, met: &[Met]) -> Vec<Met> {
+        let is_robot = |surface: &Segment| {
+            self.others.iter().any(|(at, radius)| surface.distance(*at) <= radius + NEAR_ROBOT_M)
+        };
+        let without = |one: &Met| {
+            let seen = one.seen.iter().filter(|surface| !is_robot(surface)).copied().collect();
+            Met { seen, ..one.clone() }
+        };
+        met.iter().map(without).collect()
+    }
+
     /// How much thicker than it was seen something is taken to be, metres: twice as much each time that it was in the way again.
     fn thickness(&self, before: &[Met], met: &Met) -> f64 {
         let settings = &self.ground.driving.navigation;
@@ -174,32 +249,34 @@ impl Site<'_> {
 
     /// Lays over the map what was met, and lifts what the robot no longer believes to be there.
     fn tell(&mut self, things: &[Vec<Point>]) -> Result<()> {
-        let Self { ground, mission, begun, .. } = self;
-        let author = Author { who: ground.robot.clone(), why: format!("met in mission {mission}") };
+        let Self { ground, on, .. } = self;
+        let author = Author { who: on.who.clone(), why: format!("met in mission {}", on.mission) };
         let (kept, gone): (Vec<_>, Vec<_>) =
-            mem::take(&mut self.told).into_iter().partition(|(_, thing)| things.contains(thing));
-        self.told = kept;
+            mem::take(&mut on.told).into_iter().partition(|(_, thing)| things.contains(thing));
+        on.told = kept;
         let mut edits: Vec<Edit> = gone.into_iter().map(|(name, _)| Edit::Lift(name)).collect();
         for thing in things {
-            if self.told.iter().all(|(_, told)| told != thing) {
-                self.laid += 1;
-                let name = format!("met by {} in mission {mission} at {begun}, {}", ground.robot, self.laid);
+            if on.told.iter().all(|(_, told)| told != thing) {
+                on.laid += 1;
+                let name =
+                    format!("met by {} in mission {} at {}, {}", on.who, on.mission, on.begun, on.laid);
                 let lay = laid(name.clone(), thing);
                 let until = Some(format!("{:.0}s", ground.driving.navigation.reported_s));
                 edits.push(Edit::Lay(Lay { until, ..lay }));
                 let middle = Rect::around(thing.iter().copied()).centre();
-                self.said.push(format!(
+                on.said.push(format!(
                     "laid over the map for {}: something at {:.1}, {:.1}, {name}",
                     lasting(ground.driving.navigation.reported_s),
                     middle.x,
                     middle.y
                 ));
-                self.told.push((name, thing.clone()));
+                on.told.push((name, thing.clone()));
             }
         }
         if !edits.is_empty() {
+            self.on.passed_on += edits.len();
             let outcome = self.live.edit(&Edit::Together(edits), &author)?;
-            self.said.extend(outcome.reacted);
+            self.on.said.extend(outcome.reacted);
         }
         Ok(())
     }
@@ -310,7 +387,7 @@ pub struct Missions<'l> {
     /// Whether the site is told what the robot meets.
     pub tells: bool,
     /// Where ways are looked for that leave more room.
-    wide: Option<State>,
+    pub(super) wide: Option<State>,
 }
 
 impl<'l> Missions<'l> {
@@ -332,42 +409,38 @@ impl Missions<'_> {
 
     /// Missions drawn by chance, with up to five boxes that the robot does not know.
     pub fn drawn(&self, count: usize, seed: u64) -> Result<Vec<Mission>> {
-        let radius = self.ground.least_radius();
-        let of =
-            |number: usize| {
-                // Far apart, so that seeds that lie together give different missions.
-                let seed = seed.wrapping_add((number as u64 + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15));
-                let mut trouble = None;
-                let mission =
-                    draw_along(&self.ground.plan, &self.ground.doorways, radius, seed, |start, goal| {
-                        match asked(
-                            self.live.fork(),
-                            &[],
-                            (start, &named_point(goal)),
-                            &Errand::default(),
-                            &self.ground.robot,
-                        ) {
-                            Ok(answer) => {
-                                let way = self.ground.stretches(&answer)?;
-                                Some(way.into_iter().flat_map(|stretch| stretch.points).collect())
-                            }
-                            Err(error) => {
-                                trouble.get_or_insert(error);
-                                None
-                            }
-                        }
-                    });
-                match (mission, trouble) {
-                    (Some(mission), _) => Ok(mission),
-                    (None, Some(trouble)) => Err(trouble),
-                    (None, None) => {
-                        let message =
-                            "the site has no room for missions: start and goal need some metres between them";
-                        Err(Error::said(Code::SimulateNoRoom, message, None))
-                    }
+        (0..count).map(|number| self.drawn_one(number, seed)).collect()
+    }
+
+    /// The mission of a number among those that are drawn by chance.
+    pub(super) fn drawn_one(&self, number: usize, seed: u64) -> Result<Mission> {
+        let (ground, radius) = (self.ground, self.ground.least_radius());
+        // Far apart, so that seeds that lie together give different missions.
+        let seed = seed.wrapping_add((number as u64 + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15));
+        let mut trouble = None;
+        let way = |start: Point, goal: Point| {
+            let ends = (start, &*named_point(goal));
+            match asked(self.live.fork(), &[], ends, &Errand::default(), &ground.robot) {
+                Ok(answer) => {
+                    let way = ground.stretches(&answer)?;
+                    Some(way.into_iter().flat_map(|stretch| stretch.points).collect())
                 }
-            };
-        (0..count).map(of).collect()
+                Err(error) => {
+                    trouble.get_or_insert(error);
+                    None
+                }
+            }
+        };
+        let mission = draw_along(&ground.plan, &ground.doorways, radius, seed, way);
+        match (mission, trouble) {
+            (Some(mission), _) => Ok(mission),
+            (None, Some(trouble)) => Err(trouble),
+            (None, None) => {
+                let message =
+                    "the site has no room for missions: start and goal need some metres between them";
+                Err(Error::said(Code::SimulateNoRoom, message, None))
+            }
+        }
     }
 
     /// Runs a mission, and judges it by what is possible with its obstacles where they come to rest.
@@ -381,9 +454,7 @@ impl Missions<'_> {
     ) -> Result<(Journal, Vec<String>)> {
         let before = Instant::now();
         let (ground, goal) = (self.ground, named_point(mission.goal));
-        let first =
-            asked(self.live.fork(), &[], (mission.start.at, &goal), &Errand::default(), &ground.robot)?;
-        let shape = self.first_shape(&first, mission.start.at)?;
+        let shape = self.shape_of(mission)?;
         let judged = self.judged(mission, &goal, shape)?;
         let (on, outfit) = ground.stage(shape);
         let (outcome, journal, said) = self.along(number, |site, judge, entries| {
@@ -431,24 +502,20 @@ impl Missions<'_> {
         number: usize,
         go: impl FnOnce(&mut Site<'_>, &mut Noting<'_, RuleJudge>, &mut Vec<Entry>) -> Result<O>,
     ) -> Result<(O, Happened, Vec<String>)> {
-        let begun = stored(self.live.site().moment("0s")?);
+        let mut on = OnMission::begun(self.live, self.ground.robot.clone(), number, Vec::new())?;
         let mut site = Site {
             live: self.live,
             ground: self.ground,
             wide: &mut self.wide,
-            mission: number,
-            begun,
             tells: self.tells,
-            told: Vec::new(),
-            laid: 0,
-            said: Vec::new(),
-            trouble: None,
+            others: &[],
+            on: &mut on,
         };
         let mut judge = RuleJudge::of_rules(self.rules)?;
         let mut noting = Noting::new(&mut judge);
         let mut entries = Vec::new();
         let outcome = go(&mut site, &mut noting, &mut entries)?;
-        let (said, trouble, decided) = (site.said, site.trouble, noting.decided);
+        let (said, trouble, decided) = (on.said, on.trouble, noting.decided);
         if let Some(trouble) = trouble {
             return Err(trouble);
         }
@@ -457,7 +524,7 @@ impl Missions<'_> {
     }
 
     /// A row with what the robot did in each state, and how hard that was.
-    fn weighed(&self, row: Row, (metres, track, changes): Done<'_>, before: Instant) -> Row {
+    pub(super) fn weighed(&self, row: Row, (metres, track, changes): Done<'_>, before: Instant) -> Row {
         let milliseconds = before.elapsed().as_secs_f64() * 1e3;
         let states = self.ground.states.iter().cloned().zip(metres.iter().copied());
         Row {
@@ -469,7 +536,9 @@ impl Missions<'_> {
     }
 
     /// In which shape the robot begins: as its route does; without one, in the first that fits there.
-    fn first_shape(&self, first: &Answer, at: Point) -> Result<usize> {
+    pub(super) fn shape_of(&self, mission: &Mission) -> Result<usize> {
+        let (at, goal) = (mission.start.at, named_point(mission.goal));
+        let first = asked(self.live.fork(), &[], (at, &goal), &Errand::default(), &self.ground.robot)?;
         let by_route =
             first.waypoints.first().and_then(|waypoint| self.ground.shape(waypoint.state.as_deref()?));
         let fitting = self.ground.fitting(&self.live.fork(), at)?;

@@ -71,6 +71,13 @@ fn sentence(event: &str, detail: &Value) -> Option<String> {
         "sought" => {
             Some(format!("unsure where it was, it set out to {}, where walls tell", place(&detail["at"])?))
         }
+        "told" => Some(match detail["things"].as_u64()? {
+            1 => "it told the site of something that it met, or took that back".to_owned(),
+            things => format!("it told the site of {things} things that it met, or took them back"),
+        }),
+        "heard" if detail["other_way"] == true => {
+            Some("others changed what ways there are, and it took another one".to_owned())
+        }
         "silent" => Some(format!("it was not heard any more: {}", detail["why"].as_str()?)),
         "begun anew" => Some("it forgot what it had met, and looked again".to_owned()),
         _ => None,

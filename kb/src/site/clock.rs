@@ -1,8 +1,11 @@
 //! What time it is for a derivation, and times as people write them.
 
+use std::sync::Arc;
+use std::sync::atomic::{AtomicI64, Ordering};
+
 use jiff::civil::{Date, DateTime, Time};
 use jiff::tz::TimeZone;
-use jiff::{Span, Timestamp, Zoned};
+use jiff::{SignedDuration, Span, Timestamp, Zoned};
 
 use crate::error::{Code, Error, Result};
 
@@ -11,6 +14,32 @@ use crate::error::{Code, Error, Result};
 pub struct Clock {
     now: Timestamp,
     zone: TimeZone,
+}
+
+/// The time of a simulation, which whoever knows the site sees alike; where nothing is simulated, none.
+#[derive(Clone, Debug, Default)]
+pub struct Dial(Arc<AtomicI64>);
+
+/// No simulation has this time, in microseconds.
+const PRESENT: i64 = 0;
+
+impl Dial {
+    /// Says that it is so many seconds after a moment.
+    pub fn set(&self, since: Timestamp, seconds: f64) {
+        let passed = SignedDuration::from_micros((seconds * 1e6) as i64);
+        let now = since.checked_add(passed).map_or(PRESENT, Timestamp::as_microsecond);
+        self.0.store(now, Ordering::Relaxed);
+    }
+
+    /// Says that nothing is simulated any more.
+    pub fn stop(&self) {
+        self.0.store(PRESENT, Ordering::Relaxed);
+    }
+
+    pub fn read(&self) -> Option<Timestamp> {
+        let now = self.0.load(Ordering::Relaxed);
+        (now != PRESENT).then(|| Timestamp::from_microsecond(now).ok()).flatten()
+    }
 }
 
 impl Clock {

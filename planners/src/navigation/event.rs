@@ -78,6 +78,13 @@ pub enum Happening {
     },
     /// The robot sets out to where known walls tell where it is.
     Sought(Point),
+    /// What was met was passed on to everybody, or taken back: so many things.
+    Told(usize),
+    /// Others changed what ways there are.
+    Heard {
+        /// Whether the best way is another one than the robot was on.
+        is_other: bool,
+    },
     /// The body is not heard any more: why.
     Silent(String),
     /// A goal point on the path was reached.

@@ -3,9 +3,10 @@
 use super::judge::{Action, Judge, StateDecision};
 use super::known::Building;
 use super::router::Router;
-use super::run::run;
+use super::run::Run;
 use super::trip::Trip;
 use super::{Ending, Event, Happening, Navigator, Settings};
+use crate::body::Body;
 use crate::floor_plan::{Disc, Drawn, FloorPlan, Network, Rule};
 use crate::geometry::{Point, Segment};
 use crate::local_model::{self, Estimate};
@@ -152,6 +153,34 @@ impl Mission {
         }
     }
 
+    /// Sets the robot on its way.
+    ///
+    /// # Arguments
+    /// `by_route` is whether somebody else than the navigator finds the ways.
+    pub fn begin<'b>(
+        &self,
+        on: &Drivable<'b>,
+        outfit: &Outfit,
+        by_route: bool,
+        judge: &mut impl Judge,
+    ) -> Result<Underway<'b>, SimulationError> {
+        let body = self.body(on, outfit)?;
+        let start = outfit.estimate(self.start);
+        let mut navigator =
+            Navigator::of_shapes((on.buildings, on.shape), outfit.model, outfit.navigation, start);
+        let run = Run::begin(&mut navigator, self.goal, by_route, judge);
+        let outcome = Outcome::begun(&body, on.buildings.len());
+        Ok(Underway {
+            body,
+            navigator,
+            run,
+            goal: self.goal,
+            begun_s: 0.0,
+            before: Before::default(),
+            outcome,
+        })
+    }
+
     /// Runs the mission.
     ///
     /// # Arguments
@@ -161,41 +190,28 @@ impl Mission {
         &self,
         on: &Drivable<'_>,
         outfit: &Outfit,
-        router: Option<&mut dyn Router>,
+        mut router: Option<&mut dyn Router>,
         judge: &mut impl Judge,
         mut journal: impl FnMut(Entry),
         mut film: Option<&mut Option<Film>>,
     ) -> Result<Outcome, SimulationError> {
-        let mut body = self.body(on, outfit)?;
-        let start = outfit.estimate(self.start);
-        let mut navigator =
-            Navigator::of_shapes((on.buildings, on.shape), outfit.model, outfit.navigation, start);
+        let mut underway = self.begin(on, outfit, router.is_some(), judge)?;
         if let Some(film) = &mut film {
-            **film = Some(Film::new(&body).to(self.goal));
+            **film = Some(Film::new(&underway.body).to(self.goal));
         }
-        let mut outcome = Outcome {
-            trip: Trip::begun(self.start.at, on.shape, on.buildings.len()),
-            overlap_m: f64::NEG_INFINITY,
-            miss_m: 0.0,
-            worst_error_m: 0.0,
-            worst_heading_error: 0.0,
-        };
-        let mut before = body.pose();
-        let ending = run(&mut body, &mut navigator, self.goal, router, judge, |body, navigator, events| {
-            let at = body.pose().at;
-            outcome.trip.note(before.at.distance(at), (at, body.shape()), &events);
-            outcome.note(body, navigator);
-            before = body.pose();
-            for event in events {
+        loop {
+            let router = router.as_mut().map(|router| &mut **router as &mut dyn Router);
+            let (ending, entries) = underway.step(router, judge);
+            for entry in entries {
                 if let Some(Some(film)) = film.as_deref_mut() {
-                    film_event(film, body, navigator, &event);
+                    film_event(film, &underway.body, &underway.navigator, &entry.event);
                 }
-                journal(Entry { event, truth: Some(body.pose()) });
+                journal(entry);
             }
-        });
-        let touches = body.touches_by_robot();
-        let trip = Trip { touches, ..outcome.trip.ended(ending, &navigator) };
-        Ok(Outcome { trip, miss_m: body.pose().at.distance(self.goal), ..outcome })
+            if let Some(ending) = ending {
+                return Ok(underway.outcome(ending));
+            }
+        }
     }
 
     /// Whether the mission can be done, by an exact search that knows of every obstacle where it comes to rest.
@@ -217,7 +233,98 @@ impl Mission {
     }
 }
 
+/// A simulated robot on its way.
+#[derive(Clone, Debug)]
+pub struct Underway<'b> {
+    body: Simulator,
+    navigator: Navigator<'b>,
+    run: Run,
+    goal: Point,
+    /// When it set out, by its clock, seconds.
+    begun_s: f64,
+    before: Before,
+    outcome: Outcome,
+}
+
+/// What a robot had done before it set out.
+#[derive(Clone, Copy, Debug, Default)]
+struct Before {
+    touches: usize,
+    replans: u32,
+}
+
+impl<'b> Underway<'b> {
+    pub const fn body(&self) -> &Simulator {
+        &self.body
+    }
+
+    pub const fn navigator(&self) -> &Navigator<'b> {
+        &self.navigator
+    }
+
+    pub const fn goal(&self) -> Point {
+        self.goal
+    }
+
+    /// Puts other things in its way than there were, by their corners.
+    pub fn place(&mut self, things: Vec<Vec<Point>>) {
+        self.body.place(things);
+    }
+
+    /// One reading, one question to the judge, one step.
+    pub fn step(
+        &mut self,
+        router: Option<&mut dyn Router>,
+        judge: &mut impl Judge,
+    ) -> (Option<Ending>, Vec<Entry>) {
+        let before = self.body.pose().at;
+        let (ending, events) = self.run.step(&mut self.body, &mut self.navigator, router, judge);
+        let truth = self.body.pose();
+        self.outcome.trip.note(before.distance(truth.at), (truth.at, self.body.shape()), &events);
+        self.outcome.note(&self.body, &self.navigator);
+        (ending, events.into_iter().map(|event| Entry { event, truth: Some(truth) }).collect())
+    }
+
+    /// Lets time pass for a robot that stands, without an errand, for one reading.
+    pub fn rest(&mut self) {
+        // what it senses is for nobody
+        drop(self.body.sense());
+    }
+
+    /// How it went, since it set out for its goal.
+    pub fn outcome(&self, ending: Ending) -> Outcome {
+        let trip = self.outcome.trip.clone().ended(ending, &self.navigator);
+        let trip = Trip {
+            touches: self.body.touches_by_robot() - self.before.touches,
+            replans: trip.replans - self.before.replans,
+            seconds: trip.seconds - self.begun_s,
+            ..trip
+        };
+        Outcome { trip, miss_m: self.body.pose().at.distance(self.goal), ..self.outcome.clone() }
+    }
+
+    /// Sets out for another goal from where it is.
+    pub fn go_on(&mut self, goal: Point, judge: &mut impl Judge) {
+        let shapes = self.outcome.trip.metres.len();
+        self.run = Run::begin(&mut self.navigator, goal, true, judge);
+        (self.goal, self.begun_s) = (goal, self.navigator.time_s());
+        let (touches, replans) = (self.body.touches_by_robot(), self.navigator.replans());
+        (self.before, self.outcome) = (Before { touches, replans }, Outcome::begun(&self.body, shapes));
+    }
+}
+
 impl Outcome {
+    /// Of a robot of so many shapes, of which nothing was driven yet.
+    fn begun(body: &Simulator, shapes: usize) -> Self {
+        Self {
+            trip: Trip::begun(body.pose().at, body.shape(), shapes),
+            overlap_m: f64::NEG_INFINITY,
+            miss_m: 0.0,
+            worst_error_m: 0.0,
+            worst_heading_error: 0.0,
+        }
+    }
+
     /// Takes note of a step.
     fn note(&mut self, body: &Simulator, navigator: &Navigator<'_>) {
         let (truth, thought) = (body.pose(), navigator.estimate().pose);
@@ -258,6 +365,7 @@ fn film_event(film: &mut Film, body: &Simulator, navigator: &Navigator, event: &
         }
         Happening::Contact { .. } => "contact".to_owned(),
         Happening::Shape(_) => "another shape".to_owned(),
+        Happening::Heard { is_other: true } => "hears of another way".to_owned(),
         Happening::Ended(Ending::Arrived) => "arrived".to_owned(),
         Happening::Ended(Ending::NoWay) => "no way".to_owned(),
         Happening::Ended(Ending::Lost) => "lost".to_owned(),

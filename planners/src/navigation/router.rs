@@ -24,4 +24,14 @@ pub trait Router {
     /// # Arguments
     /// `met` is where the robot found its way closed, the latest last; none of it any more after it has begun anew.
     fn way(&mut self, ends: [Point; 2], shape: usize, met: &[Met]) -> Option<Vec<Stretch>>;
+
+    /// How much whoever finds ways was told, and passed on to everybody, since this was asked last.
+    fn take_told(&mut self) -> usize {
+        0
+    }
+
+    /// Whether others have changed what ways there are since a way was asked for.
+    fn has_news(&mut self) -> bool {
+        false
+    }
 }

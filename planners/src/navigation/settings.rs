@@ -32,7 +32,7 @@ settings! {
             detour_reach_m: f64 = 2.0, "detour_reach", "m", Positive, "A detour leaves the rectangle about its ends by at most so much.";
             grain_m: f64 = 0.04, "grain", "m", Grain, "The grain of the search for detours.";
             back_off_m: f64 = 0.15, "back_off", "m", Positive, "How far the robot withdraws from what it touched.";
-            change_room_m: f64 = 0.10, "change_room", "m", Room, "What is kept free on either side of the robot where it changes its shape, if there is such a place.";
+            change_room_m: f64 = 0.15, "change_room", "m", Room, "What is kept free on either side of the robot where it changes its shape, if there is such a place.";
             change_reach_m: f64 = 1.5, "change_reach", "m", NotNegative, "So far before or behind the place that a route says the robot changes its shape, to have room.";
             felt_s: f64 = 90.0, "felt", "s", NotNegative, "What was touched is in the way for so long.";
             least_confidence: u8 = 2, "least_confidence", "", Count, "Surfaces of less confidence close no way for good.";
@@ -43,6 +43,7 @@ settings! {
             most_detours: u32 = 4, "most_detours", "", Times, "Detours from one spot before the way counts as closed.";
             most_closed: u32 = 2, "most_closed", "", Times, "Ways closed at one spot before a path is looked for off the network, through what is known to be free.";
             most_reports: u32 = 8, "most_reports", "", Times, "Ways that routes lead and that are reported closed at one spot before everything is looked at anew.";
+            heed_s: f64 = 0.5, "heed", "s", Positive, "So often a robot on a site's route asks whether others changed what ways there are.";
             reported_s: f64 = 3600.0, "reported", "s", Positive, "What the robot tells a site of which rooms are cut holds so long.";
             most_retries: u32 = 2, "most_retries", "", Times, "Times that everything is looked at anew before there is no way.";
             give_way_m: f64 = 1.5, "give_way", "m", NotNegative, "Before it begins anew the robot goes back on its own track, up to so far, to give way.";

@@ -11,6 +11,7 @@ mod on_rooms;
 mod position;
 mod same_as_table;
 mod sensors;
+mod together;
 mod told;
 mod why;
 

@@ -10,6 +10,9 @@ use crate::navigation::stretch::Stretch;
 /// No robot keeps to a way more exactly than for so much room beside it, metres.
 const LEAST_ROOM_M: f64 = 0.03;
 
+/// Ways whose points lie so near together are the same, metres.
+const SAME_M: f64 = 0.01;
+
 impl Navigator<'_> {
     /// Goes to a goal by ways that are [given](Self::take_way) to it, from now on.
     pub fn go_by_route(&mut self, goal: Point) {
@@ -42,6 +45,45 @@ impl Navigator<'_> {
         self.tell(Happening::Planned { points, length_m, is_off_network: false });
     }
 
+    /// Where it is on its way to, or would be if there were a way, and may take another one.
+    pub fn heeds(&self) -> Option<Point> {
+        let is_on_way = self.mode == Mode::Route && !self.wants_way && self.whereabouts.aside.is_none();
+        self.goal.filter(|_| is_on_way)
+    }
+
+    /// Others changed what ways there are, and this one is the best now: it is taken, unless it is the one that the robot is on.
+    pub fn heed(&mut self, way: Option<Vec<Stretch>>) {
+        let is_other = way.as_ref().map_or(self.has_way, |way| !self.has_way || !self.is_on(way));
+        self.tell(Happening::Heard { is_other });
+        if is_other {
+            self.ask_for_way();
+            self.take_way(way, false);
+        }
+    }
+
+    /// Notes that so much of what it met was passed on to everybody.
+    pub(in crate::navigation) fn has_told(&mut self, things: usize) {
+        if things > 0 {
+            self.tell(Happening::Told(things));
+        }
+    }
+
+    /// Whether a way from where it is is what it has before it.
+    fn is_on(&self, way: &[Stretch]) -> bool {
+        let after_first = |stretch: &Stretch| {
+            let shape = stretch.shape;
+            stretch.points.iter().skip(1).map(move |at| (shape, *at)).collect::<Vec<_>>()
+        };
+        let rest = self.legs.iter().map(|at| (self.needed, *at));
+        let rest = rest.chain(self.stretches.iter().flat_map(after_first));
+        let rest: Vec<(usize, Point)> = rest.collect();
+        let way: Vec<(usize, Point)> = way.iter().flat_map(after_first).collect();
+        let is_same = |(one, other): (&(usize, Point), &(usize, Point))| {
+            one.0 == other.0 && one.1.distance(other.1) <= SAME_M
+        };
+        rest.len() == way.len() && rest.iter().zip(&way).all(is_same)
+    }
+
     /// Drops the way that it has, and waits for another one.
     pub(super) fn ask_for_way(&mut self) {
         self.legs.clear();
@@ -70,6 +112,7 @@ impl Navigator<'_> {
         let leg = Segment::new(self.came_from, target);
         let nearest = self.barriers.iter().map(|barrier| leg.gap(barrier)).fold(f64::INFINITY, f64::min);
         let mut room = nearest - self.radius_m;
+        let mut at_change = f64::INFINITY;
         if let (1, Some(next)) = (self.legs.len(), self.stretches.front())
             && let Some(building) = self.shapes.get(next.shape)
         {
@@ -77,10 +120,12 @@ impl Navigator<'_> {
             let met = &self.barriers[self.obstacles_from..];
             let there = building.walls.iter().chain(&building.overhead).chain(met);
             let nearest = there.map(|barrier| barrier.distance(target)).fold(f64::INFINITY, f64::min);
-            room = room.min(nearest - building.network.disc.radius);
+            at_change = (nearest - building.network.disc.radius).max(LEAST_ROOM_M);
+            room = room.min(at_change);
         }
         let room = room.max(LEAST_ROOM_M);
-        let off = room / 2.0;
+        // what is over it has no echo: the more of the room there is left to how far it is off without knowing
+        let off = (room / 2.0).min(at_change / 4.0);
         Settings {
             goal_tolerance_m: figures.goal_tolerance_m.min(off),
             highway_half_width_m: figures.highway_half_width_m.min(room),
