@@ -274,8 +274,10 @@ impl Site<'_> {
             }
         }
         if !edits.is_empty() {
-            self.on.passed_on += edits.len();
+            let (before, count) = (self.live.generation(), edits.len());
             let outcome = self.live.edit(&Edit::Together(edits), &author)?;
+            // what lies where something lay before is no news
+            self.on.passed_on += if outcome.generation == before { 0 } else { count };
             self.on.said.extend(outcome.reacted);
         }
         Ok(())
