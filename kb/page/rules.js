@@ -186,7 +186,7 @@ export function startRules() {
   fill(byId('rules'), el('div', { id: 'rules-note' }),
     el('div', { class: 'rules-columns' }, el('div', { class: 'rules-aside' }, el('div', { class: 'card' }, el('nav', { id: 'rules-files', 'aria-label': 'Files of rules' }), newFile()), startVocabulary((text) => { if (mayEdit()) pane.insert(text); })),
       el('div', { class: 'rules-side' }, el('div', { class: 'card' }, el('div', { class: 'file-head' }, el('h2', { id: 'rules-name' }), el('span', { class: 'buttons' }, back, remove)), pane.node, el('div', { id: 'rules-result', class: 'result' })),
-        el('div', { class: 'tray' }), startGrids((line) => pane.go(line)), startVersions())));
+        startGrids((line) => pane.go(line)), el('div', { class: 'tray' }), startVersions())));
   onTab('rules', show);
   model.on('pending', follow);
   model.on('generation changed problems', () => { if (files.size) reload().catch(() => {}); });

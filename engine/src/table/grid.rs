@@ -1,6 +1,5 @@
 //! Decision tables as people read them: what is given, what is set, row by row, and what is amiss in which row.
 
-use rhai::Position;
 use serde::Serialize;
 
 use super::overlap::{Left, Space};
@@ -76,7 +75,7 @@ impl Grid {
             name: rule.name().to_owned(),
             line: rule.line(),
             hit: hit(&table.hit).to_owned(),
-            given: table.given.iter().map(|(input, _)| written_at(file, input.start_position())).collect(),
+            given: given(table, file),
             set: table
                 .set
                 .iter()
@@ -91,10 +90,12 @@ impl Grid {
 
 impl GridRow {
     fn of(row: &Row, file: &SourceFile) -> Self {
+        let place = file.place(row.position);
+        let written = cells(&file.text()[place.span.0..]);
         Self {
-            line: file.place(row.position).line,
+            line: place.line,
             tests: row.tests.iter().map(|(test, _)| test.to_string()).collect(),
-            outputs: row.outputs.iter().map(|output| written_at(file, output.start_position())).collect(),
+            outputs: written.into_iter().skip(row.tests.len()).take(row.outputs.len()).collect(),
         }
     }
 }
@@ -123,21 +124,42 @@ const fn hit(hit: &Hit) -> &'static str {
     }
 }
 
-/// What stands from a place to the end of its cell: a comma or bracket that belongs to none of its own.
-fn written_at(file: &SourceFile, position: Position) -> String {
-    let text = &file.text()[file.place(position).span.0..];
-    let (mut deep, mut is_text) = (0, false);
-    let is_end = |letter: char| {
+/// What a table looks at, as it is written: the list begins at the bracket before the first of it.
+fn given(table: &Table, file: &SourceFile) -> Vec<String> {
+    let Some((first, _)) = table.given.first() else { return vec![] };
+    let at = file.place(first.start_position()).span.0;
+    let list = file.text()[..at].rfind('[').unwrap_or(at);
+    cells(&file.text()[list..]).into_iter().take(table.given.len()).collect()
+}
+
+/// The cells of a list as they are written, from its bracket on.
+fn cells(list: &str) -> Vec<String> {
+    let (mut cells, mut cell, mut deep) = (vec![], String::new(), 0);
+    let (mut is_text, mut is_comment) = (false, false);
+    let mut letters = list.chars().skip(1).peekable();
+    while let Some(letter) = letters.next() {
         match letter {
+            '\n' => is_comment = false,
+            _ if is_comment => continue,
             '"' => is_text = !is_text,
             _ if is_text => {}
+            '/' if letters.peek() == Some(&'/') => {
+                is_comment = true;
+                continue;
+            }
             '[' | '(' | '{' => deep += 1,
-            ']' | ')' | '}' | ',' if deep == 0 => return true,
+            ',' | ']' if deep == 0 => {
+                cells.push(cell.split_whitespace().collect::<Vec<_>>().join(" "));
+                cell.clear();
+                if letter == ']' {
+                    break;
+                }
+                continue;
+            }
             ']' | ')' | '}' => deep -= 1,
             _ => {}
         }
-        false
-    };
-    let end = text.find(is_end).unwrap_or(text.len());
-    text[..end].split_whitespace().collect::<Vec<_>>().join(" ")
+        cell.push(letter);
+    }
+    cells
 }

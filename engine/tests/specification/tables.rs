@@ -203,7 +203,7 @@ fn a_table_is_read_as_a_grid_with_what_is_amiss_in_its_rows() {
     let text = r#"
 const LIMIT = 10;
 
-rule "no table" each thing in THINGS set thing.y = 1
+rule "no table" each thing in THINGS then { thing.z = LIMIT; }
 
 table "fine [, so to say" unique
     each thing in THINGS

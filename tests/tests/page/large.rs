@@ -35,7 +35,7 @@ const STILL: &str =
 async fn a_floor_is_sent_packed_and_looks_the_same_however_it_was_reached() {
     let (_site, service) = offices(640, 420);
     let (_, map) = service.ask("GET", "/api/map", None);
-    let browser = Browser::open(&service.page("#map"), Screen::Desktop).await;
+    let browser = Browser::open(&service.page("#map?start=west&goal=east"), Screen::Desktop).await;
     browser.says("#route-title", "west to east").await;
     let sent = browser.value(SENT).await;
     assert!(sent["/api/map"].is_null(), "{sent:#}");

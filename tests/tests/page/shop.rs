@@ -54,3 +54,29 @@ async fn a_price_is_tuned_with_what_follows_beside_it() {
     browser.press("dialog", "Take it back").await;
     browser.says("[data-table='orders'] [data-key='2']", "49.36").await;
 }
+
+/// What rules may speak of stands beside the editor, and is written where the cursor is.
+#[tokio::test(flavor = "multi_thread")]
+async fn classes_and_properties_stand_beside_the_editor_and_are_written_by_a_click() {
+    let (_site, _service, browser) = at_a_desk("shop", "#rules?file=orders.rhai").await;
+    browser.says("#rules-name", "orders.rhai").await;
+    browser.click("#vocabulary summary").await;
+    browser.says("#vocabulary", "CUSTOMERS").await;
+    browser.type_into("#vocabulary input", "club").await;
+    browser.says("#vocabulary", "club").await;
+    browser
+        .until(
+            "!document.querySelector('.vocabulary').innerText.includes('PRODUCTS')",
+            "the rest is not shown",
+        )
+        .await;
+    browser.screenshot("rules-vocabulary").await;
+    browser
+        .run("const area = document.querySelector('#rules textarea'); area.focus(); area.setSelectionRange(0, 0)")
+        .await;
+    browser.press(".vocabulary", "club").await;
+    browser
+        .until("document.querySelector('#rules textarea').value.startsWith('club')", "it is written")
+        .await;
+    browser.says("#preview", "orders.rhai: 1 line changed").await;
+}
