@@ -64,6 +64,7 @@ function invalidateFloor() {
 /** Draws the map again at the next frame. */
 export function invalidate() {
   frames.forget();
+  canvas.dataset.painted = '';
   invalidateFloor();
 }
 

@@ -75,7 +75,7 @@ impl Grid {
             name: rule.name().to_owned(),
             line: rule.line(),
             hit: hit(&table.hit).to_owned(),
-            given: given(table, file),
+            given: table.given.iter().map(|(_, input)| input.clone()).collect(),
             set: table
                 .set
                 .iter()
@@ -90,10 +90,9 @@ impl Grid {
 
 impl GridRow {
     fn of(row: &Row, file: &SourceFile) -> Self {
-        let place = file.place(row.position);
-        let written = cells(&file.text()[place.span.0..]);
+        let written = file.cells(row.position);
         Self {
-            line: place.line,
+            line: file.place(row.position).line,
             tests: row.tests.iter().map(|(test, _)| test.to_string()).collect(),
             outputs: written.into_iter().skip(row.tests.len()).take(row.outputs.len()).collect(),
         }
@@ -122,44 +121,4 @@ const fn hit(hit: &Hit) -> &'static str {
         Hit::Collect(Fold::Max) => "collect max",
         Hit::Collect(Fold::Count) => "collect count",
     }
-}
-
-/// What a table looks at, as it is written: the list begins at the bracket before the first of it.
-fn given(table: &Table, file: &SourceFile) -> Vec<String> {
-    let Some((first, _)) = table.given.first() else { return vec![] };
-    let at = file.place(first.start_position()).span.0;
-    let list = file.text()[..at].rfind('[').unwrap_or(at);
-    cells(&file.text()[list..]).into_iter().take(table.given.len()).collect()
-}
-
-/// The cells of a list as they are written, from its bracket on.
-fn cells(list: &str) -> Vec<String> {
-    let (mut cells, mut cell, mut deep) = (vec![], String::new(), 0);
-    let (mut is_text, mut is_comment) = (false, false);
-    let mut letters = list.chars().skip(1).peekable();
-    while let Some(letter) = letters.next() {
-        match letter {
-            '\n' => is_comment = false,
-            _ if is_comment => continue,
-            '"' => is_text = !is_text,
-            _ if is_text => {}
-            '/' if letters.peek() == Some(&'/') => {
-                is_comment = true;
-                continue;
-            }
-            '[' | '(' | '{' => deep += 1,
-            ',' | ']' if deep == 0 => {
-                cells.push(cell.split_whitespace().collect::<Vec<_>>().join(" "));
-                cell.clear();
-                if letter == ']' {
-                    break;
-                }
-                continue;
-            }
-            ']' | ')' | '}' => deep -= 1,
-            _ => {}
-        }
-        cell.push(letter);
-    }
-    cells
 }

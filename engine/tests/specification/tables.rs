@@ -242,7 +242,9 @@ table "last" first
     assert!(fine.amiss[0].message.contains("rows 2 and 3 both match where thing.size"), "{:?}", fine.amiss);
     let missing = fine.missing.as_ref().unwrap();
     assert!(
-        fine.amiss[1].message.ends_with(&format!("thing.size {} and input 2 {}", missing[0], missing[1])),
+        fine.amiss[1]
+            .message
+            .ends_with(&format!("thing.size {} and thing.colour ?? \"none\" {}", missing[0], missing[1])),
         "{fine:#?}"
     );
 

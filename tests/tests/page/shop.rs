@@ -22,6 +22,7 @@ async fn a_decision_table_is_a_grid_in_which_gaps_and_overlaps_are_marked() {
     browser.run(&typed("between(50.0, 100.0)", "between(40.0, 100.0)")).await;
     browser.says("#rules-tables .amiss", "overlaps").await;
     browser.says("#rules-tables .problems", "Rows 2 and 3 both match where").await;
+    browser.run("document.getElementById('rules-tables').scrollIntoView()").await;
     browser.screenshot("rules-grid").await;
     browser.press("#rules-tables", "3").await;
     let line = "(({ value, selectionStart }) => value.slice(0, selectionStart).split('\\n').length)(document.querySelector('#rules textarea'))";
