@@ -2,6 +2,8 @@
 
 // So many things make a patch, about.
 const MANY = 1000;
+// So many are painted in one go: what is near has no seams, and what is far away is too small to show them.
+const AT_ONCE = 2000;
 
 /** Paths of things by where they lie. */
 export class Patches {
@@ -22,7 +24,8 @@ export class Patches {
   path([x0, y0, x1, y1]) {
     const key = this.column(x0, x1, 0) * this.across + this.column(y0, y1, 1);
     let patch = this.patches.get(key);
-    if (!patch) this.patches.set(key, patch = { path: new Path2D(), box: [Infinity, Infinity, -Infinity, -Infinity] });
+    if (!patch) this.patches.set(key, patch = { path: new Path2D(), count: 0, box: [Infinity, Infinity, -Infinity, -Infinity] });
+    patch.count += 1;
     const { box } = patch;
     if (x0 < box[0]) box[0] = x0;
     if (y0 < box[1]) box[1] = y0;
@@ -34,6 +37,10 @@ export class Patches {
   /** The paths of what may be seen in a box of the map. */
   seen([x0, y0, x1, y1]) {
     const isSeen = ({ box }) => box[0] <= x1 && box[2] >= x0 && box[1] <= y1 && box[3] >= y0;
-    return [...this.patches.values()].filter(isSeen).map(({ path }) => path);
+    const seen = [...this.patches.values()].filter(isSeen);
+    if (seen.length < 2 || seen.reduce((sum, { count }) => sum + count, 0) > AT_ONCE) return seen.map(({ path }) => path);
+    const all = new Path2D();
+    for (const { path } of seen) all.addPath(path);
+    return [all];
   }
 }
