@@ -47,7 +47,7 @@ function invalidateOver() {
     canvas.dataset.generation = what.generation;
     canvas.dataset.changed = String(what.changedRooms.size + what.changedDoors.size);
     canvas.dataset.view = viewOf(camera);
-    canvas.dataset.painted = isMore ? '' : viewOf(camera);
+    if (!isMore) canvas.dataset.painted = viewOf(camera);
     if (!performance.getEntriesByName('first picture').length) performance.mark('first picture');
     if (isMore) invalidateFloor();
   });
@@ -58,13 +58,13 @@ const viewOf = ({ scale, shift }) => [scale, ...shift].join(' ');
 // Shows the picture of the floor again, from where it is seen now.
 function invalidateFloor() {
   isFloorDue = true;
+  canvas.dataset.painted = '';
   invalidateOver();
 }
 
 /** Draws the map again at the next frame. */
 export function invalidate() {
   frames.forget();
-  canvas.dataset.painted = '';
   invalidateFloor();
 }
 
