@@ -59,4 +59,5 @@ pub use rule_test::{RuleTests, TestFailure, TestOutcome};
 pub use schema::Schema;
 pub use script::limits::Limits;
 pub use script::source::{MAX_FILE_BYTES, SourceFile};
+pub use table::grid::{Amiss, Grid, GridRow};
 pub use value::{Type, Value};

@@ -1,7 +1,7 @@
 //! What the rules say though they were hardly meant to.
 
 mod contradiction;
-mod table;
+pub(crate) mod table;
 mod texts;
 pub(crate) mod unused;
 
@@ -13,7 +13,7 @@ pub(crate) fn lint(rules: &[Rule]) -> Vec<Diagnostic> {
     for rule in rules {
         found.extend(contradiction::lint(rule));
         if let Action::Table(table) = &rule.action {
-            found.extend(self::table::lint(rule, table));
+            found.extend(self::table::lint(rule, table).into_iter().map(|found| found.said));
         }
     }
     found

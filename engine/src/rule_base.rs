@@ -219,6 +219,11 @@ fn read_all(bases: &[&[SourceFile]]) -> All {
     All { rules, declared, problems, replaced }
 }
 
+/// The rules of a file as they stand there, as far as it can be read.
+pub(crate) fn read_one(file: &SourceFile) -> Vec<Rule> {
+    read(file, reader()).drafts.into_iter().map(|draft| draft.rule).collect()
+}
+
 fn duplicates(rules: &[Rule]) -> Vec<Diagnostic> {
     let mut seen: BTreeMap<&str, &Rule> = BTreeMap::new();
     let mut problems = vec![];

@@ -1,6 +1,7 @@
 //! Decision tables: rows of tests over the same inputs, each with what it gives.
 
 mod bits;
+pub(crate) mod grid;
 pub(crate) mod overlap;
 pub(crate) mod region;
 

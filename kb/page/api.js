@@ -32,7 +32,7 @@ async function ask(method, path, body, options) {
 }
 
 /**
- * Asks and gives the answer's JSON (or text where `options.text` says so); throws an {@link ApiError} on a refusal.
+ * Asks and gives the answer's JSON (or text, or bytes, where `options` say so); throws an {@link ApiError} on a refusal.
  * A missing token is asked for, and the request made again.
  */
 export async function call(method, path, body, options = {}) {
@@ -43,7 +43,7 @@ export async function call(method, path, body, options = {}) {
     answer = await ask(method, path, body, options);
   }
   if (!answer.ok) throw await failure(answer);
-  return options.text ? answer.text() : answer.status === 204 ? null : answer.json();
+  return options.text ? answer.text() : options.bytes ? answer.arrayBuffer() : answer.status === 204 ? null : answer.json();
 }
 
 async function failure(answer) {

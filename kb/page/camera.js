@@ -26,6 +26,16 @@ export class Camera {
     this.moved();
   }
 
+  /** The view as it is now, which does not move along. */
+  still() {
+    return Object.assign(Object.create(Camera.prototype), { canvas: this.canvas, scale: this.scale, shift: this.shift });
+  }
+
+  /** Whether the same is seen. */
+  isLike({ scale, shift }) {
+    return scale === this.scale && shift[0] === this.shift[0] && shift[1] === this.shift[1];
+  }
+
   toScreen([x, y]) {
     return [this.shift[0] + x * this.scale, this.shift[1] - y * this.scale];
   }

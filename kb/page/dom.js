@@ -102,9 +102,9 @@ export function keep(parent, children) {
 /** Calls `act` once it was not asked for during `wait` milliseconds; `cancel` forgets that it was. */
 export function debounced(act, wait) {
   let timer = 0;
-  const later = () => {
+  const later = (...given) => {
     clearTimeout(timer);
-    timer = setTimeout(act, wait);
+    timer = setTimeout(() => act(...given), wait);
   };
   later.cancel = () => clearTimeout(timer);
   return later;

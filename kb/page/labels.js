@@ -12,9 +12,10 @@ const BOLD = '600 12px system-ui, sans-serif';
 
 /** Writes the labels of one frame. */
 export class Labels {
-  constructor(context, ink) {
+  constructor(context, ink, width) {
     this.context = context;
     this.ink = ink;
+    this.width = width;
     this.taken = [];
   }
 
@@ -31,8 +32,8 @@ export class Labels {
     for (const [x, y, align] of spots) {
       const wished = align === 'left' ? x : align === 'right' ? x - width : x - width / 2;
       // Of what is in sight the word is, too.
-      const most = context.canvas.clientWidth - width - 3;
-      const left = x < 0 || x > context.canvas.clientWidth ? wished : Math.max(3, Math.min(wished, most));
+      const most = this.width - width - 3;
+      const left = x < 0 || x > this.width ? wished : Math.max(3, Math.min(wished, most));
       const box = [left - 1, y - 8, left + width + 1, y + 8];
       if (this.taken.some((other) => box[0] < other[2] && other[0] < box[2] && box[1] < other[3] && other[1] < box[3])) continue;
       this.taken.push(box);
@@ -52,8 +53,11 @@ export class Labels {
 
 const around = ([x, y], by) => [[x + by, y, 'left'], [x, y - by - 6, 'center'], [x, y + by + 6, 'center'], [x - by, y, 'right']];
 
-/** All labels of the floor, the most telling first. `find` gives the rooms of all layers at a point. */
-export function labelFloor(labels, camera, shown, find) {
+// So many things are looked at in one step, about.
+const STEP = 25;
+
+/** All labels of the floor, step by step, the most telling first. `find` gives the rooms of all layers at a point. */
+export function* labelFloor(labels, camera, shown, find) {
   places(labels, camera);
   const { map, weights } = model;
   for (const door of map.named_doors) {
@@ -68,29 +72,34 @@ export function labelFloor(labels, camera, shown, find) {
     const [px, py] = camera.toScreen([area.polygon[0], area.polygon[1]]);
     labels.put(area.kind ? `${area.name} (${area.kind})` : area.name, [[px + 4, py - 9, 'left'], [px + 4, py + 9, 'left']]);
   }
-  if (!roomsWeigh()) doors(labels, camera, shown, weights);
-  if (showsPieces()) rooms(labels, camera, shown, find);
-  else spaces(labels, camera);
+  yield;
+  if (!roomsWeigh()) yield* doors(labels, camera, shown, weights);
+  if (showsPieces()) yield* rooms(labels, camera, shown, find);
+  else yield* spaces(labels, camera);
 }
 
 // The largest first: a corridor is known by its name before a niche is.
-function spaces(labels, camera) {
+function* spaces(labels, camera) {
   const { map, weights } = model;
   const known = new Set(map.places.map(({ place }) => place));
   const order = map.spaces.map((_, index) => index).sort((a, b) => map.spaces[b].area - map.spaces[a].area);
+  let seen = 0;
   for (const index of order) {
+    seen += 1;
+    if (seen % STEP === 0) yield;
     const { at, area } = map.spaces[index];
     const name = weights.spaces.name[index];
     if (known.has(name) || Math.sqrt(area) * camera.scale < 40) continue;
     const [px, py] = camera.toScreen(at);
     labels.put(weights.spaces.closed[index] ? `${name} ✕` : name, [[px, py, 'center'], [px, py + 16, 'center'], [px, py - 16, 'center']]);
   }
-  map.doorways.forEach(({ segment: [x0, y0, x1, y1] }, index) => {
+  for (const [index, { segment: [x0, y0, x1, y1] }] of map.doorways.entries()) {
+    if (index % STEP === 0) yield;
     const { closed, name: names } = weights.doorways;
     const [name, into] = [names[index], onlyInto(index)];
-    if (Math.hypot(x1 - x0, y1 - y0) * camera.scale < 24 && !closed[index] && !into) return;
+    if (Math.hypot(x1 - x0, y1 - y0) * camera.scale < 24 && !closed[index] && !into) continue;
     labels.put(closed[index] ? `${name} ✕` : into ? `${name} → ${into}` : name, around(camera.toScreen([(x0 + x1) / 2, (y0 + y1) / 2]), 9));
-  });
+  }
 }
 
 function places(labels, camera) {
@@ -105,8 +114,9 @@ function places(labels, camera) {
   }
 }
 
-function doors(labels, camera, shown, weights) {
-  for (const index of shown.doors) {
+function* doors(labels, camera, shown, weights) {
+  for (const [seen, index] of shown.doors.entries()) {
+    if (seen % STEP === 0) yield;
     const { door, segment: [x0, y0, x1, y1] } = model.map.doors[index];
     if (Math.hypot(x1 - x0, y1 - y0) * camera.scale < 36) continue;
     const shut = weights.doors.passable[index] === true ? '' : ' ✕';
@@ -120,7 +130,7 @@ function doors(labels, camera, shown, weights) {
   }
 }
 
-function rooms(labels, camera, shown, find) {
+function* rooms(labels, camera, shown, find) {
   const [sx0, sy0, sx1, sy1] = camera.seen();
   const { map, weights } = model;
   let left = MOST_ROOMS;
@@ -137,6 +147,7 @@ function rooms(labels, camera, shown, find) {
     const lower = py + Math.min(18, high / 4);
     labels.put(`${room.name} · ${letter}`, [[px, py, 'center'], [px, lower, 'center'], [px, 2 * py - lower, 'center']]);
     left -= 1;
+    if (left % STEP === 0) yield;
     if (left === 0) break;
   }
 }

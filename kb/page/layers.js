@@ -2,6 +2,7 @@
 
 import { model } from './model.js';
 import { Actions, Classes } from './palette.js';
+import { Patches } from './patches.js';
 import { trace } from './shapes.js';
 
 /** The view of all layers at once: wherever several states fit, the room that is easiest lies on top. */
@@ -18,14 +19,16 @@ export class Drawn {
   constructor(layer) {
     const { map, weights } = model;
     this.layer = layer;
+    this.generation = weights.generation;
     const rows = model.table('robots');
     const actionAt = rows?.columns.findIndex((column) => column.name === 'action') ?? -1;
     const ordered = rows && actionAt >= 0 ? rows.rows.map((row) => row[actionAt]) : [];
     this.actions = new Actions([...ordered, ...weights.rooms.action]);
     const counts = roomsWeigh() ? weights.rooms : weights.doors;
     this.classes = new Classes(counts.hardness.filter((value, i) => value !== null && counts.passable[i] !== false));
-    this.changedRooms = new Map((model.preview?.rooms.list ?? []).map((room) => [model.roomIndex.get(room.room), room]));
-    this.changedDoors = new Map((model.preview?.doors.list ?? []).map((door) => [model.doorIndex.get(door.door), door]));
+    const changed = (of, numbered) => new Map((of?.list ?? []).map((thing) => [numbered(thing), thing]).filter(([index]) => index !== undefined));
+    this.changedRooms = changed(model.preview?.rooms, ({ room }) => model.roomIndex.get(room));
+    this.changedDoors = changed(model.preview?.doors, ({ door }) => model.doorIndex.get(door));
     const shows = map.layers.map((_, index) => (layer === EASIEST ? ofRobot(index) : index === layer));
     this.rooms = map.rooms.flatMap((room, index) => (room.layer === null || shows[room.layer] ? [index] : []));
     this.shownRooms = new Set(this.rooms);
@@ -38,10 +41,10 @@ export class Drawn {
   showsDoor(door, index) {
     const { map, weights } = model;
     if (!roomsWeigh()) return true;
-    if (door.kind === 'change') return false;
     const notable = weights.doors.passable[index] === false || weights.doors.hardness[index] > 0;
-    const layer = map.rooms[model.roomIndex.get(door.room1)].layer;
-    return this.layer === EASIEST ? ofRobot(layer) && (notable || this.changedDoors.has(index)) : layer === this.layer;
+    if (this.layer === EASIEST && !notable && !this.changedDoors.has(index)) return false;
+    const { layer } = map.rooms[model.roomIndex.get(door.room1)];
+    return this.layer === EASIEST ? ofRobot(layer) : layer === this.layer;
   }
 
   /** The class of a room: of its hardness; -1 barred, -2 unknown, -3 where rooms weigh nothing. */
@@ -60,8 +63,9 @@ export class Drawn {
       const changed = this.changedRooms.has(index);
       const action = kind === -3 ? model.weights.rooms.action[index] : null;
       const name = `${kind}/${changed}/${action}`;
-      if (!groups.has(name)) groups.set(name, { kind, changed, action, path: new Path2D() });
-      trace(groups.get(name).path, model.map.rooms[index]);
+      if (!groups.has(name)) groups.set(name, { kind, changed, action, patches: new Patches(model.map.bounds, this.rooms.length) });
+      const room = model.map.rooms[index];
+      trace(groups.get(name).patches.path(room.rect), room);
     }
     const rank = ({ kind }) => (kind < 0 ? 1000 - kind : kind);
     return [...groups.values()].sort((a, b) => rank(b) - rank(a) || Number(a.changed) - Number(b.changed));
@@ -76,9 +80,9 @@ export class Drawn {
       const kind = passable !== true ? -1 : roomsWeigh() || hardness === null ? -2 : this.classes.of(hardness);
       const changed = this.changedDoors.has(index);
       const name = `${kind}/${changed}`;
-      if (!groups.has(name)) groups.set(name, { kind, changed, path: new Path2D() });
+      if (!groups.has(name)) groups.set(name, { kind, changed, patches: new Patches(map.bounds, this.doors.length) });
       const [x0, y0, x1, y1] = map.doors[index].segment;
-      const { path } = groups.get(name);
+      const path = groups.get(name).patches.path([Math.min(x0, x1), Math.min(y0, y1), Math.max(x0, x1), Math.max(y0, y1)]);
       path.moveTo(x0, y0);
       path.lineTo(x1, y1);
     }

@@ -6,6 +6,7 @@ import { startEnds, lead, openEnds } from './ends.js';
 import { startExperience } from './experience.js';
 import { startFacts } from './facts.js';
 import { startFirm } from './firm.js';
+import { getFloor, getWeights } from './floor.js';
 import { moment } from './format.js';
 import { readLaid } from './laid.js';
 import { startHistory } from './history.js';
@@ -77,11 +78,15 @@ async function begin() {
   startTheme();
   pressOnce();
   try {
-    const [site, map, weights, tables] = await Promise.all([get('/api/site'), get('/api/map'), get('/api/weights'), get('/api/tables')]);
+    const rest = Promise.all([getFloor(), getWeights(), get('/api/tables'), readTunings(), get('/api/facts')]);
+    // A failure of the rest is heard below, when it is waited for; until then it is no stray one.
+    rest.catch(() => {});
+    const site = await get('/api/site');
     model.set('site', site);
     start();
     model.set('site', site);
-    const [laid, tunings, { facts }] = await Promise.all([readLaid(), readTunings(), get('/api/facts')]);
+    const laid = await readLaid();
+    const [map, weights, tables, tunings, { facts }] = await rest;
     model.set('facts', facts);
     model.set('laid', laid);
     model.set('tunings', tunings);

@@ -4,22 +4,24 @@ import { Camera } from './camera.js';
 import { byId, el, fill } from './dom.js';
 import { drawing, startDraw } from './draw.js';
 import { action, number } from './format.js';
+import { Frames } from './frames.js';
 import { Drawn, EASIEST, layerName, ofRobot, roomsWeigh } from './layers.js';
 import { laidAt } from './laid.js';
 import { showPoint, showScale } from './measure.js';
 import { model } from './model.js';
 import { inks, paint, paintOver } from './paint.js';
-import { Finder } from './places.js';
+import { Patches } from './patches.js';
+import { Finder, boxOf } from './places.js';
 import { closePopover, openPopover } from './popover.js';
 import { centreOf, middleOf, polygon } from './shapes.js';
 import { showsPieces, weightsOf } from './thing.js';
 import { onTheme } from './theme.js';
 
 const canvas = byId('canvas');
-const context = canvas.getContext('2d');
+const frames = new Frames(canvas.getContext('2d'));
 const over = byId('over').getContext('2d');
-const camera = new Camera(canvas, () => { closePopover(); pointAtMiddle(); invalidate(); });
-let finder = null;
+const camera = new Camera(canvas, () => { closePopover(); pointAtMiddle(); invalidateFloor(); });
+let found = null;
 let shown = null;
 let still = null;
 let ink = null;
@@ -38,40 +40,61 @@ function invalidateOver() {
     paintOver(over, camera, ink, pointed);
     if (!isFloorDue) return;
     isFloorDue = false;
-    paint(context, camera, shown, still, ink, (at) => finder.roomsAt(at));
+    const isMore = frames.show(camera, shown, ink.paper, (context, view) => paint(context, view, shown, still, ink, (at) => finder().roomsAt(at)));
     showScale(camera);
     // Whoever measures how soon an edit is seen reads it here.
-    canvas.dataset.generation = model.weights.generation;
-    canvas.dataset.changed = String(shown.changedRooms.size + shown.changedDoors.size);
-    canvas.dataset.view = [camera.scale, ...camera.shift].join(' ');
+    const { what } = frames.whole;
+    canvas.dataset.generation = what.generation;
+    canvas.dataset.changed = String(what.changedRooms.size + what.changedDoors.size);
+    canvas.dataset.view = viewOf(camera);
+    if (!isMore) canvas.dataset.painted = viewOf(camera);
+    if (!performance.getEntriesByName('first picture').length) performance.mark('first picture');
+    if (isMore) invalidateFloor();
   });
+}
+
+const viewOf = ({ scale, shift }) => [scale, ...shift].join(' ');
+
+// Shows the picture of the floor again, from where it is seen now.
+function invalidateFloor() {
+  isFloorDue = true;
+  canvas.dataset.painted = '';
+  invalidateOver();
 }
 
 /** Draws the map again at the next frame. */
 export function invalidate() {
-  isFloorDue = true;
-  invalidateOver();
+  frames.forget();
+  invalidateFloor();
 }
+
+/** What lies where; on a large floor it takes a moment to know, and the first picture does not wait for it. */
+const finder = () => (found ??= new Finder(model.map));
 
 /** Everything that follows from weights, preview or layer. */
 function redraw() {
   if (!model.map || !model.weights) return;
   const chosen = byId('layer').value;
   shown = new Drawn(chosen === EASIEST || chosen === '' ? EASIEST : Number(chosen));
-  ink ??= inks(context);
+  ink ??= inks(frames.context);
   legend();
   invalidate();
 }
 
 function newMap() {
   const { map } = model;
-  finder = new Finder(map);
+  found = null;
   const polygons = (list) => {
     const path = new Path2D();
     for (const points of list) polygon(path, points);
     return path;
   };
-  still = { walls: polygons(map.walls), areas: polygons(map.areas.map((area) => area.polygon)), spaces: polygons(map.spaces.flatMap(({ rings }) => rings)), bridges: new Path2D(), namedDoors: new Path2D() };
+  still = { walls: new Patches(map.bounds, map.walls.length), areas: polygons(map.areas.map((area) => area.polygon)), bridges: new Path2D(), namedDoors: new Path2D(), doorways: new Path2D() };
+  for (const wall of map.walls) polygon(still.walls.path(boxOf(wall)), wall);
+  for (const { segment: [ax, ay, bx, by] } of map.doorways) {
+    still.doorways.moveTo(ax, ay);
+    still.doorways.lineTo(bx, by);
+  }
   for (const { rect: [x0, y0, x1, y1] } of map.bridges) still.bridges.rect(x0, y0, x1 - x0, y1 - y0);
   for (const { from, to } of map.named_doors) {
     still.namedDoors.moveTo(...from);
@@ -125,12 +148,12 @@ function stroke(name) {
 function thingAt(point, reach = 8) {
   const at = camera.toMap(point);
   const near = reach / camera.scale;
-  const doorway = showsPieces() ? -1 : finder.doorwayAt(at, near);
-  const door = finder.doorAt(at, near, (index) => shown.shownDoors.has(index));
-  const common = { at, laid: laidAt(at, camera.scale), space: finder.spaceAt(at), place: finder.placeAt(at, near * 1.5), named: finder.namedDoorAt(at, near * 1.5), areas: finder.areasAt(at) };
+  const doorway = showsPieces() ? -1 : finder().doorwayAt(at, near);
+  const door = finder().doorAt(at, near, (index) => shown.shownDoors.has(index));
+  const common = { at, laid: laidAt(at, camera.scale), space: finder().spaceAt(at), place: finder().placeAt(at, near * 1.5), named: finder().namedDoorAt(at, near * 1.5), areas: finder().areasAt(at) };
   if (doorway >= 0) return { kind: 'doorway', index: doorway, ...common };
   if (door >= 0) return { kind: 'door', index: door, ...common };
-  const room = shown.topRoom(finder.roomsAt(at));
+  const room = shown.topRoom(finder().roomsAt(at));
   return room >= 0 ? { kind: 'room', index: room, ...common } : { kind: 'wall', index: -1, ...common };
 }
 
@@ -145,7 +168,7 @@ function hover(point) {
     byId('tip').hidden = true;
     return;
   }
-  const thing = point && finder && shown ? thingAt(point) : null;
+  const thing = point && shown ? thingAt(point) : null;
   const tip = byId('tip');
   if (pointed?.index !== thing?.index || pointed?.kind !== thing?.kind) invalidateOver();
   pointed = thing?.kind === 'wall' ? null : thing;
@@ -196,7 +219,7 @@ export function point(kind, index) {
   camera.show(at);
   pointed = { kind, index, at };
   invalidate();
-  return { thing: { kind, index, at, areas: finder.areasAt(at) }, screen: camera.toScreen(at) };
+  return { thing: { kind, index, at, areas: finder().areasAt(at) }, screen: camera.toScreen(at) };
 }
 
 function pointAtNoun(kind, index) {
@@ -204,8 +227,8 @@ function pointAtNoun(kind, index) {
   const at = kind === 'space' ? map.spaces[index].at : middleOf(map.doorways[index].segment);
   byId('pieces').checked = false;
   camera.show(at);
-  const common = { at, space: finder.spaceAt(at), areas: finder.areasAt(at), place: finder.placeAt(at, 0) };
-  const room = kind === 'space' ? shown.topRoom(finder.roomsAt(at)) : -1;
+  const common = { at, space: finder().spaceAt(at), areas: finder().areasAt(at), place: finder().placeAt(at, 0) };
+  const room = kind === 'space' ? shown.topRoom(finder().roomsAt(at)) : -1;
   const thing = kind === 'doorway' ? { kind, index, ...common } : { kind: room >= 0 ? 'room' : 'wall', index: room, ...common };
   pointed = thing.kind === 'wall' ? null : thing;
   redraw();
@@ -222,7 +245,7 @@ export function openCard(kind, index) {
 /** Makes the map answer. `lead(end, at)` sets the start or the goal to a point. */
 export function startMap(lead) {
   camera.listen((at, event) => {
-    if (!finder || !shown) return;
+    if (!shown) return;
     const thing = thingAt(at, event.pointerType === 'touch' ? 16 : 8);
     byId('tip').hidden = true;
     if (drawing()) return drawing().tap(at, event);
@@ -239,7 +262,9 @@ export function startMap(lead) {
   byId('layer').addEventListener('change', redraw);
   byId('pieces').addEventListener('change', redraw);
   model.on('map', newMap);
-  model.on('weights preview', redraw);
+  model.on('weights', redraw);
+  // The words of a preview come first: on a large floor it takes a moment to find what is drawn otherwise.
+  model.on('preview', () => requestAnimationFrame(redraw));
   let robot = model.ask.robot;
   model.on('ask', () => {
     if (robot === model.ask.robot || !model.map) return;

@@ -2,8 +2,8 @@
 
 class Model extends EventTarget {
   /** `/api/site` */ site = null;
-  /** `/api/map` */ map = null;
-  /** `/api/weights` */ weights = null;
+  /** `/api/floor`, unpacked */ map = null;
+  /** `/api/weights`, as they fit it */ weights = null;
   /** `/api/tables` */ tables = null;
   /** What is asked: start, goal, robot. */ ask = { start: '', goal: '', robot: '' };
   /** `/api/route`, or `{error}` */ route = null;

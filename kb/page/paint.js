@@ -38,12 +38,16 @@ export function paintOver(context, camera, ink, pointed) {
   world();
   if (pointed) outline(context, pointed, ink, 1 / camera.scale);
   screen();
-  paintPending(context, camera, ink, new Labels(context, ink));
+  paintPending(context, camera, ink, new Labels(context, ink, camera.canvas.clientWidth));
 }
 
-/** Everything, from the floor up to the labels. `shown` is a Drawn, `still` the walls' paths, `find` gives the rooms at a point. */
-export function paint(context, camera, shown, still, ink, find) {
-  const { clientWidth: width, clientHeight: height } = context.canvas;
+/**
+ * Everything, from the floor up to the labels, step by step. `shown` is a Drawn, `still` the paths of what no edit changes, `find` gives
+ * the rooms at a point.
+ */
+export function* paint(context, camera, shown, still, ink, find) {
+  const { clientWidth: width, clientHeight: height } = camera.canvas;
+  const seen = camera.seen();
   const { world, screen } = units(context, camera);
   screen();
   context.clearRect(0, 0, width, height);
@@ -61,17 +65,27 @@ export function paint(context, camera, shown, still, ink, find) {
     context.fillStyle = group.changed ? ink.changed : group.kind >= 0 ? shown.classes.colour(group.kind)
       : group.kind === -1 ? ink.barred : group.kind === -2 ? ink.unknown : shown.actions.colour(group.action);
     if (group.kind === -3 && !group.changed) context.globalAlpha = 0.13;
-    context.fill(group.path);
-    context.globalAlpha = 1;
-    if (!group.changed && !showsPieces()) continue;
     context.lineWidth = group.changed ? 1.5 * pixel : 0.6 * pixel;
     context.strokeStyle = group.changed ? ink['amber-line'] : ink.line;
-    context.stroke(group.path);
+    const paths = group.patches.seen(seen);
+    for (const path of paths) {
+      context.fill(path);
+      yield;
+    }
+    context.globalAlpha = 1;
+    if (!group.changed && !showsPieces()) continue;
+    for (const path of paths) {
+      context.stroke(path);
+      yield;
+    }
   }
   context.fillStyle = ink.bridge;
   context.fill(still.bridges);
   context.fillStyle = ink.wall;
-  context.fill(still.walls);
+  for (const path of still.walls.seen(seen)) {
+    context.fill(path);
+    yield;
+  }
   context.strokeStyle = ink.wall;
   context.lineWidth = 2 * pixel;
   context.strokeRect(x0, y0, x1 - x0, y1 - y0);
@@ -80,38 +94,46 @@ export function paint(context, camera, shown, still, ink, find) {
   context.lineWidth = pixel;
   context.stroke(still.areas);
   context.setLineDash([]);
-  paintDoors(context, shown, ink, pixel, Math.max(1.5, Math.min(4.5, camera.scale * 0.6)));
-  if (!showsPieces()) paintDoorways(context, ink, pixel);
+  yield* paintDoors(context, seen, shown, ink, pixel, Math.max(1.5, Math.min(4.5, camera.scale * 0.6)));
+  if (!showsPieces()) paintDoorways(context, still.doorways, ink, pixel);
+  yield;
   paintClosed(context, ink, pixel);
   context.lineWidth = 4 * pixel;
   context.strokeStyle = ink.ink;
   context.stroke(still.namedDoors);
 
   screen();
-  const labels = new Labels(context, ink);
+  const labels = new Labels(context, ink, width);
   paintRoutes(context, camera, shown, ink, labels);
-  labelFloor(labels, camera, shown, find);
+  yield* labelFloor(labels, camera, shown, find);
 }
 
 // `wide` is the width of a door that weighs, in pixels: slim where the whole of a large floor is seen.
-function paintDoors(context, shown, ink, pixel, wide) {
+function* paintDoors(context, seen, shown, ink, pixel, wide) {
   for (const group of shown.doorGroups) {
+    const paths = group.patches.seen(seen);
+    const stroke = function* () {
+      for (const path of paths) {
+        context.stroke(path);
+        yield;
+      }
+    };
     context.setLineDash(group.kind === -1 ? [3 * pixel, 3 * pixel] : []);
     if (group.kind >= 0 && !group.changed && wide > 3) {
       // A dark line around it: the palest class would not be seen on the floor.
       context.strokeStyle = ink.ink;
       context.lineWidth = (wide + 2.5) * pixel;
-      context.stroke(group.path);
+      yield* stroke();
     }
     context.lineWidth = (group.changed ? wide + 1.5 : group.kind === -2 ? 1.5 : wide) * pixel;
     context.strokeStyle = group.changed ? ink['amber-line'] : group.kind >= 0 ? shown.classes.colour(group.kind) : group.kind === -1 ? ink.shut : ink.faint;
-    context.stroke(group.path);
+    yield* stroke();
     if (group.changed) {
       // Hatched as the rooms are: amber dashes on the dark amber line.
       context.setLineDash([4 * pixel, 3 * pixel]);
       context.strokeStyle = ink.amber;
       context.lineWidth = Math.max(1, wide - 1.5) * pixel;
-      context.stroke(group.path);
+      yield* stroke();
     }
   }
   context.setLineDash([]);
@@ -125,11 +147,11 @@ function line(context, [x0, y0, x1, y1]) {
 }
 
 // An opening is a thin dotted line from post to post.
-function paintDoorways(context, ink, pixel) {
+function paintDoorways(context, doorways, ink, pixel) {
   context.strokeStyle = ink.faint;
   context.lineWidth = 1.5 * pixel;
   context.setLineDash([2 * pixel, 3 * pixel]);
-  for (const { segment } of model.map.doorways) line(context, segment);
+  context.stroke(doorways);
   context.setLineDash([]);
 }
 

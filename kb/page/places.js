@@ -97,9 +97,14 @@ export class Finder {
 }
 
 /** The box about points x, y, x, y, … */
-function boxOf(points) {
-  const [x, y] = [0, 1].map((axis) => points.filter((_, i) => i % 2 === axis));
-  return [Math.min(...x), Math.min(...y), Math.max(...x), Math.max(...y)];
+export function boxOf(points) {
+  const box = [Infinity, Infinity, -Infinity, -Infinity];
+  for (let i = 0; i < points.length; i += 1) {
+    const axis = i % 2;
+    box[axis] = Math.min(box[axis], points[i]);
+    box[axis + 2] = Math.max(box[axis + 2], points[i]);
+  }
+  return box;
 }
 
 function nearest(buckets, list, at, reach, drawn) {

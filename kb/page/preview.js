@@ -48,6 +48,8 @@ const ask = debounced(async () => {
     previewed = asked;
     model.set('refusal', null);
     model.set('preview', answer);
+    // It takes the service long, and what would change comes first.
+    askFirm();
     // The first answer is quick; the whole comparison follows while nobody types.
     if (answer.routes?.truncated) model.set('preview', await post('/api/preview', { ...body, patience_ms: THOROUGH }, { signal: stop.signal }));
   } catch (error) {
@@ -322,7 +324,6 @@ export function startPreview() {
       if (model.preview) model.set('preview', null);
     } else {
       ask();
-      askFirm();
     }
     show();
   });

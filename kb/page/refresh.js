@@ -2,6 +2,7 @@
 
 import { get } from './api.js';
 import { askRoute } from './ends.js';
+import { getFloor, getWeights } from './floor.js';
 import { readLaid } from './laid.js';
 import { model } from './model.js';
 import { complain } from './notice.js';
@@ -41,11 +42,11 @@ async function load() {
   // A failure of the rest is heard below, when it is waited for; until then it is no stray one.
   rest.catch(() => {});
   const way = askRoute();
-  const weights = await get('/api/weights');
+  const weights = await getWeights();
   const moved = weights.layout !== model.map?.layout;
   // What an edit weighs is drawn at once; only a floor that was cut anew has to wait for its map.
   if (!moved) model.set('weights', weights);
-  const map = moved ? await get('/api/map') : null;
+  const map = moved ? await getFloor() : null;
   if (moved && map.layout !== weights.layout) return load();
   const [site, tables, laid, tunings, { facts }] = await rest;
   model.set('facts', facts);

@@ -5,10 +5,12 @@ import { button, byId, debounced, el, fill, form } from './dom.js';
 import { draftOf, drafts, edit, files, forget, loadFiles, names, textOf } from './drafts.js';
 import { editor } from './editor.js';
 import { count } from './format.js';
+import { showGrids, startGrids } from './grids.js';
 import { model } from './model.js';
 import { said } from './notice.js';
 import { isOpen, onTab, remember } from './router.js';
 import { startVersions, showVersions } from './versions.js';
+import { startVocabulary } from './vocabulary.js';
 
 const WAIT = 300;
 
@@ -135,6 +137,7 @@ function standing() {
   pane.area.readOnly = !mayEdit();
   byId('rules-delete').hidden = !mayEdit();
   byId('rules-back').hidden = !draft || draft.version === null;
+  showGrids(open, draft?.text ?? null);
   showVersions(isOwn(open) ? open : null);
 }
 
@@ -181,9 +184,9 @@ export function startRules() {
   const remove = button('Delete this file', () => edit(open, null), { id: 'rules-delete', class: 'quiet' });
   const back = button('Back to what is saved', () => forget(open), { id: 'rules-back', class: 'quiet' });
   fill(byId('rules'), el('div', { id: 'rules-note' }),
-    el('div', { class: 'rules-columns' }, el('div', { class: 'card' }, el('nav', { id: 'rules-files', 'aria-label': 'Files of rules' }), newFile()),
+    el('div', { class: 'rules-columns' }, el('div', { class: 'rules-aside' }, el('div', { class: 'card' }, el('nav', { id: 'rules-files', 'aria-label': 'Files of rules' }), newFile()), startVocabulary((text) => { if (mayEdit()) pane.insert(text); })),
       el('div', { class: 'rules-side' }, el('div', { class: 'card' }, el('div', { class: 'file-head' }, el('h2', { id: 'rules-name' }), el('span', { class: 'buttons' }, back, remove)), pane.node, el('div', { id: 'rules-result', class: 'result' })),
-        el('div', { class: 'tray' }), startVersions())));
+        startGrids((line) => pane.go(line)), el('div', { class: 'tray' }), startVersions())));
   onTab('rules', show);
   model.on('pending', follow);
   model.on('generation changed problems', () => { if (files.size) reload().catch(() => {}); });

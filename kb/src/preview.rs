@@ -5,6 +5,7 @@ mod drafts;
 mod routes;
 
 use std::sync::Arc;
+use std::time::Instant;
 
 use adit_db::door::Door;
 use adit_db::room::Room;
@@ -193,6 +194,7 @@ impl Before {
         let Self { graph: before, known, gauge, courses, route: before_route } = self;
         let (layout_changed, weighed) = (step.is_cut_anew, step.weighed.clone());
         state.accept(step);
+        state.go_on()?;
         let (after, robots) = (Arc::clone(state.graph()), state.robots());
         let same = !layout_changed && weighed.is_empty() && before.places == after.places;
         let routes = if let (Some(before), Some(after)) = (&courses, &state.courses) {
@@ -201,7 +203,9 @@ impl Before {
             PlaceRoutes::none(robots.len(), before.places.len())
         } else {
             let (before, after) = ((&*before, &*gauge), (&*after, &*state.gauge));
-            routes::compare((before, &known), after, &robots, layout_changed, state.patience)
+            let began = Instant::now();
+            let is_time = |share| began.elapsed() < state.patience / share && state.is_waited_for();
+            routes::compare((before, &known), after, &robots, layout_changed, &is_time)
         };
         let Otherwise { cells, conclusions, rules } = said;
         Ok(Preview {

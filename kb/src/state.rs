@@ -15,7 +15,7 @@ mod twin;
 pub mod weighed;
 pub(crate) mod weights;
 
-use std::sync::Arc;
+use std::sync::{Arc, Weak};
 use std::time::Duration;
 
 use adit_db::door::Door;
@@ -23,7 +23,7 @@ use adit_db::room::Room;
 use adit_engine::KnowledgeBase as Inference;
 use adit_planners::world::World;
 
-use crate::error::Result;
+use crate::error::{Code, Error, Result};
 use crate::graph::gauge::{Gauge, Sizes};
 use crate::graph::pairs::{self, Known, PlaceCosts};
 use crate::graph::{Building, SiteGraph};
@@ -75,6 +75,8 @@ pub struct State {
     pub(crate) patience: Duration,
     /// How far ends of routes may be moved to where something fits, metres; `None`: not at all.
     pub(crate) within: Option<f64>,
+    /// Who waits for what is tried on this fork; `None`: it is tried whoever waits.
+    pub(crate) waits: Option<Weak<()>>,
 }
 
 impl State {
@@ -104,6 +106,7 @@ impl State {
             tunable: Arc::default(),
             patience: PATIENCE,
             within: None,
+            waits: None,
         }
     }
 
@@ -127,7 +130,26 @@ impl State {
             tunable: Arc::clone(&self.tunable),
             patience: self.patience,
             within: self.within,
+            waits: self.waits.clone(),
         }
+    }
+
+    /// What is tried on it is given up once nobody holds this any more.
+    #[must_use]
+    pub fn waited_for_by(mut self, waits: Weak<()>) -> Self {
+        self.waits = Some(waits);
+        self
+    }
+
+    /// Whether anybody waits for what is tried on it.
+    pub(crate) fn is_waited_for(&self) -> bool {
+        self.waits.as_ref().is_none_or(|waits| waits.strong_count() > 0)
+    }
+
+    /// The failure of what nobody waits for.
+    pub(crate) fn go_on(&self) -> Result<()> {
+        let message = "nobody waits for this any more, and nothing was changed";
+        if self.is_waited_for() { Ok(()) } else { Err(Error::said(Code::ServiceLate, message, None)) }
     }
 
     /// Looks for routes between places for so long in a preview; what is not found by then is not compared.

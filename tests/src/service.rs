@@ -162,6 +162,17 @@ impl Service {
         std::thread::sleep(after);
     }
 
+    /// What an address gives, as bytes.
+    pub fn bytes(&self, path: &str) -> Vec<u8> {
+        let mut stream = TcpStream::connect(&self.address).expect("somebody answers there");
+        send(&mut stream, &self.address, &[], ("GET", path), None).expect("asked");
+        let mut answer = Vec::new();
+        stream.read_to_end(&mut answer).expect("answered");
+        assert!(answer.starts_with(b"HTTP/1.1 200"), "{}", String::from_utf8_lossy(&answer[..200]));
+        let head = answer.windows(4).position(|four| four == b"\r\n\r\n").expect("headers end");
+        answer.split_off(head + 4)
+    }
+
     /// Asks, and gives the status and the answer's JSON.
     pub fn ask(&self, method: &str, path: &str, body: Option<&Value>) -> (u16, Value) {
         request(&self.address, method, path, body)

@@ -17,6 +17,8 @@ mod find_out;
 mod history;
 #[path = "page/keyboard.rs"]
 mod keyboard;
+#[path = "page/large.rs"]
+mod large;
 #[path = "page/latency.rs"]
 mod latency;
 #[path = "page/live.rs"]

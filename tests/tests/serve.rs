@@ -15,6 +15,8 @@ mod errands;
 mod events;
 #[path = "serve/failures.rs"]
 mod failures;
+#[path = "serve/floor.rs"]
+mod floor;
 #[path = "serve/follow.rs"]
 mod follow;
 #[path = "serve/follows.rs"]

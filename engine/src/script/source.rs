@@ -48,6 +48,11 @@ impl SourceFile {
         Place { source: self.clone(), span: (offset, token_len(&text[offset..])), line, column }
     }
 
+    /// The cells of the list that begins at a place, as they are written.
+    pub(crate) fn cells(&self, list: Position) -> Vec<String> {
+        cells(&self.text()[self.place(list).span.0..])
+    }
+
     pub(crate) fn place_of(&self, bytes: &Range<usize>) -> Place {
         let text = self.text();
         let start = text.floor_char_boundary(bytes.start.min(text.len()));
@@ -82,4 +87,36 @@ fn token_len(text: &str) -> usize {
         }
         Some(first) => first.len_utf8(),
     }
+}
+
+/// The cells of a list as they are written, from its bracket on.
+fn cells(list: &str) -> Vec<String> {
+    let (mut cells, mut cell, mut deep) = (vec![], String::new(), 0);
+    let (mut is_text, mut is_comment) = (false, false);
+    let mut letters = list.chars().skip(1).peekable();
+    while let Some(letter) = letters.next() {
+        match letter {
+            '\n' => is_comment = false,
+            _ if is_comment => continue,
+            '"' => is_text = !is_text,
+            _ if is_text => {}
+            '/' if letters.peek() == Some(&'/') => {
+                is_comment = true;
+                continue;
+            }
+            '[' | '(' | '{' => deep += 1,
+            ',' | ']' if deep == 0 => {
+                cells.push(cell.split_whitespace().collect::<Vec<_>>().join(" "));
+                cell.clear();
+                if letter == ']' {
+                    break;
+                }
+                continue;
+            }
+            ']' | ')' | '}' => deep -= 1,
+            _ => {}
+        }
+        cell.push(letter);
+    }
+    cells
 }

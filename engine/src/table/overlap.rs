@@ -24,7 +24,8 @@ pub(crate) struct Space {
 /// What is left of some inputs when those of rows are taken away.
 pub(crate) enum Left {
     Nothing,
-    Example(String),
+    /// One text for each input, as `is below 3`; empty where every value will do.
+    Example(Vec<String>),
     GaveUp,
 }
 
@@ -52,23 +53,23 @@ impl Space {
         self.work.get() < MAX_WORK
     }
 
-    pub(crate) fn both(&self, table: &Table, a: usize, b: usize) -> Option<String> {
+    pub(crate) fn both(&self, a: usize, b: usize) -> Option<Vec<String>> {
         if !self.meet(&self.rows[a], b) {
             return None;
         }
         let meet: Cut = self.rows[a].iter().zip(&self.rows[b]).map(|(a, b)| a.and(b)).collect();
-        Some(self.example(table, &meet))
+        Some(self.example(&meet))
     }
 
     /// What is left of a row's inputs where others come before it.
-    pub(crate) fn left_of(&self, table: &Table, row: usize, before: &[usize]) -> Left {
-        self.left(table, self.rows[row].clone(), before)
+    pub(crate) fn left_of(&self, row: usize, before: &[usize]) -> Left {
+        self.left(self.rows[row].clone(), before)
     }
 
-    pub(crate) fn gap(&self, table: &Table) -> Left {
+    pub(crate) fn gap(&self) -> Left {
         let all = self.regions.iter().map(|regions| Bits::new(regions.len(), |_| true)).collect();
         let rows: Vec<usize> = (0..self.rows.len()).collect();
-        self.left(table, all, &rows)
+        self.left(all, &rows)
     }
 
     fn meet(&self, part: &Cut, row: usize) -> bool {
@@ -77,7 +78,7 @@ impl Space {
     }
 
     /// Takes row after row away; the parts still open wait with the row that is next for them.
-    fn left(&self, table: &Table, all: Cut, rows: &[usize]) -> Left {
+    fn left(&self, all: Cut, rows: &[usize]) -> Left {
         let mut open: Vec<(Cut, usize)> = vec![(all, 0)];
         let mut looked_at = 0;
         while let Some((part, next)) = open.pop() {
@@ -86,7 +87,7 @@ impl Space {
                 return Left::GaveUp;
             }
             match (next..rows.len()).find(|&at| self.meet(&part, rows[at])) {
-                None => return Left::Example(self.example(table, &part)),
+                None => return Left::Example(self.example(&part)),
                 Some(at) => {
                     let pieces = without(part, &self.rows[rows[at]]);
                     open.extend(pieces.into_iter().map(|piece| (piece, at + 1)));
@@ -96,15 +97,12 @@ impl Space {
         Left::Nothing
     }
 
-    fn example(&self, table: &Table, cut: &Cut) -> String {
-        let mut parts = vec![];
-        for ((regions, inside), (_, input)) in self.regions.iter().zip(cut).zip(&table.given) {
-            // Where every value will do, the input is not worth a word.
-            if let (Some(first), true) = (inside.first(), inside.count() < regions.len()) {
-                parts.push(format!("{input} {}", regions[first].reads));
-            }
-        }
-        if parts.is_empty() { "anything is given".to_owned() } else { parts.join(" and ") }
+    fn example(&self, cut: &Cut) -> Vec<String> {
+        let reads = |(regions, inside): (&Vec<Region>, &Bits)| match inside.first() {
+            Some(first) if inside.count() < regions.len() => regions[first].reads.clone(),
+            _ => String::new(),
+        };
+        self.regions.iter().zip(cut).map(reads).collect()
     }
 }
 

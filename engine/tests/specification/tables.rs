@@ -1,6 +1,6 @@
 //! Decision tables.
 
-use adit_engine::{Class, Code, Diagnostic, RuleBase, Schema, Severity, SourceFile, Type};
+use adit_engine::{Class, Code, Diagnostic, Grid, RuleBase, Schema, Severity, SourceFile, Type};
 use proptest::prelude::*;
 
 use crate::support::{concluded, text, things};
@@ -194,5 +194,68 @@ proptest! {
         let said = first.iter().filter(|problem| problem.code == Code::Unreachable).count();
         prop_assert_eq!(said, unreached, "{:?}", first);
         prop_assert!(first.iter().all(|problem| problem.severity == Severity::Warning));
+    }
+}
+
+/// What an editor shows beside the text: each cell in words, and what is amiss in which row.
+#[test]
+fn a_table_is_read_as_a_grid_with_what_is_amiss_in_its_rows() {
+    let text = r#"
+const LIMIT = 10;
+
+rule "no table" each thing in THINGS then { thing.z = LIMIT; }
+
+table "fine [, so to say" unique
+    each thing in THINGS
+    given [ thing.size, thing.colour ?? "none" ]
+    set   [ thing.x, thing.y ]
+    rows  [ [ below(LIMIT),        any,            1.0, thing.size * max(2.0, 3.0) ],
+            [ between(10.0, 20.0), not("red"),     2.0, "a, b" ],
+            [ at_least(15.0),      ["red", "blue"], -3.0, true ] ]
+
+table "last" first
+    each thing in THINGS
+    given [ thing.size ]
+    set   [ thing.z ]
+    rows  [ [ any, 1.0 ],
+            [ above(3.0), 2.0 ] ]
+"#;
+    let grids = Grid::of(&SourceFile::new("grid.rhai", text));
+    let [fine, last] = &grids[..] else { panic!("{grids:#?}") };
+    assert_eq!((fine.name.as_str(), fine.line, fine.hit.as_str()), ("fine [, so to say", 6, "unique"));
+    assert_eq!(fine.given, ["thing.size", "thing.colour ?? \"none\""]);
+    assert_eq!(fine.set, ["thing.x", "thing.y"]);
+    let texts = |of: &[String]| of.join(" | ");
+    let rows: Vec<(usize, String, String)> =
+        fine.rows.iter().map(|row| (row.line, texts(&row.tests), texts(&row.outputs))).collect();
+    let row = |line: usize, tests: &str, outputs: &str| (line, tests.to_owned(), outputs.to_owned());
+    assert_eq!(
+        rows,
+        [
+            row(10, "below 10 | any", "1.0 | thing.size * max(2.0, 3.0)"),
+            row(11, "from 10 to below 20 | other than \"red\"", "2.0 | \"a, b\""),
+            row(12, "at least 15 | \"red\" or \"blue\"", "-3.0 | true"),
+        ]
+    );
+    let amiss: Vec<(&str, &[usize])> = fine.amiss.iter().map(|amiss| (amiss.what, &*amiss.rows)).collect();
+    assert_eq!(amiss, [("overlap", &[1, 2][..]), ("gap", &[])]);
+    assert!(fine.amiss[0].message.contains("rows 2 and 3 both match where thing.size"), "{:?}", fine.amiss);
+    let missing = fine.missing.as_ref().unwrap();
+    assert!(
+        fine.amiss[1]
+            .message
+            .ends_with(&format!("thing.size {} and thing.colour ?? \"none\" {}", missing[0], missing[1])),
+        "{fine:#?}"
+    );
+
+    assert_eq!((last.hit.as_str(), &last.missing), ("first", &None));
+    let amiss: Vec<(&str, &[usize])> = last.amiss.iter().map(|amiss| (amiss.what, &*amiss.rows)).collect();
+    assert_eq!(amiss, [("unreachable", &[1][..])]);
+}
+
+#[test]
+fn what_does_not_read_has_no_grids() {
+    for text in ["", "table", "table \"t\" unique each", "not rules at all ("] {
+        assert_eq!(Grid::of(&SourceFile::new("wrong.rhai", text)), []);
     }
 }

@@ -14,11 +14,11 @@ mod test_names;
 mod tokens;
 mod vocabulary;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use lsp_server::Connection;
-use lsp_types::{CompletionItemKind, Documentation};
+use lsp_types::{CompletionItem, CompletionItemKind, Documentation};
 
 use self::complete::complete;
 use self::library::Library;
@@ -27,22 +27,49 @@ use self::server::{Server, capabilities};
 use self::vocabulary::Vocabulary;
 use crate::error::{Code, Error, Result};
 use crate::knowledge::KnowledgeBase;
-use crate::serve::settings::Proposal;
+use crate::serve::settings::{Known, Proposal};
 use crate::site::rules::Drafts;
+
+fn absolute(path: &Path) -> Result<PathBuf> {
+    std::path::absolute(path).map_err(|error| Error::io("find", path, &error))
+}
+
+/// The files of a site, as they are with these drafts.
+fn library(site: &KnowledgeBase, drafts: &Drafts) -> Result<Library> {
+    let (home, folder) = (absolute(&site.site().folder)?, absolute(&site.rule_folder())?);
+    let texts = drafts.iter().filter_map(|(file, text)| Some((folder.join(file), text.clone()?)));
+    Ok(Library::read(&Project::Site(home), &texts.collect(), Path::new("")))
+}
+
+/// What rules of a site may speak of: its classes with their properties.
+pub fn classes(site: &KnowledgeBase) -> Result<Vec<Known>> {
+    let (library, vocabulary) = (library(site, &Drafts::default())?, Vocabulary::new(site.classes()?));
+    let mut found: Vec<Known> = complete::classes(&library, &vocabulary)
+        .into_iter()
+        .map(|class| Known {
+            properties: complete::properties(&library, &vocabulary, library.classes.root(&class.label))
+                .into_iter()
+                .map(proposal)
+                .collect(),
+            class: proposal(class),
+        })
+        .collect();
+    found.sort_by(|one, other| one.class.text.cmp(&other.class.text));
+    Ok(found)
+}
 
 /// What may stand at a byte of a rule file of a site, as it is with these drafts.
 pub fn propose(site: &KnowledgeBase, drafts: &Drafts, file: &str, byte: usize) -> Result<Vec<Proposal>> {
-    let folder = std::path::absolute(site.rule_folder());
-    let folder = folder.map_err(|error| Error::io("find", &site.rule_folder(), &error))?;
-    let home = std::path::absolute(&site.site().folder);
-    let home = home.map_err(|error| Error::io("find", &site.site().folder, &error))?;
-    let texts = drafts.iter().filter_map(|(file, text)| Some((folder.join(file), text.clone()?)));
-    let library = Library::read(&Project::Site(home), &texts.collect(), Path::new(""));
+    let (library, folder) = (library(site, drafts)?, absolute(&site.rule_folder())?);
     let Some(of) = library.file(&folder.join(file)).filter(|_| !file.starts_with("tests/")) else {
         return Ok(Vec::new());
     };
     let vocabulary = Vocabulary::new(site.classes()?);
-    let proposals = complete(&library, &vocabulary, of, byte).into_iter().map(|item| Proposal {
+    Ok(complete(&library, &vocabulary, of, byte).into_iter().map(proposal).collect())
+}
+
+fn proposal(item: CompletionItem) -> Proposal {
+    Proposal {
         text: item.label,
         kind: match item.kind {
             Some(CompletionItemKind::CLASS) => "class",
@@ -56,8 +83,7 @@ pub fn propose(site: &KnowledgeBase, drafts: &Drafts, file: &str, byte: usize) -
             Documentation::String(text) => text,
             Documentation::MarkupContent(said) => said.value,
         }),
-    });
-    Ok(proposals.collect())
+    }
 }
 
 #[derive(Args, Debug)]

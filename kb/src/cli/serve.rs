@@ -103,6 +103,7 @@ pub fn run(args: &ServeArgs) -> Result<()> {
         subscribers: args.subscribers,
         log: remark,
         complete: lsp::propose,
+        classes: lsp::classes,
     };
     let name = match &settings.shared {
         Some(place) => format!("{} in {}", settings.shared_name(place), place.shown()),

@@ -89,6 +89,7 @@ impl State {
             let cut = (graph.rooms.clone(), graph.doors.clone(), (*graph.building).clone());
             let mut after = State::new(Arc::clone(&site), Arc::clone(&inputs), cut);
             (after.generation, after.patience, after.within) = (self.generation, self.patience, self.within);
+            after.waits.clone_from(&self.waits);
             let step = after.step_and_react(tx, told, Recalled::OfLastBuild, &Silent)?;
             Ok((after, step, cells, outcomes))
         });

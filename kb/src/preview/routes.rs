@@ -1,7 +1,5 @@
 //! Routes between places, before and after.
 
-use std::time::{Duration, Instant};
-
 use adit_db::place::Place;
 use serde::Serialize;
 
@@ -64,18 +62,17 @@ impl PlaceRoutes {
 }
 
 /// Compares the routes from each place to all others that there are afterwards. Those of before are looked up where they are
-/// known.
+/// known. `is_time` says whether there is time left; of 2, whether half of it is.
 pub(super) fn compare(
     (before, known): ((&SiteGraph, &Gauge), &Known),
     after: (&SiteGraph, &Gauge),
     robots: &[String],
     is_anew: bool,
-    patience: Duration,
+    is_time: &dyn Fn(u32) -> bool,
 ) -> PlaceRoutes {
-    let began = Instant::now();
     let mut all = PlaceRoutes { compared: 0, ..PlaceRoutes::none(robots.len(), after.0.places.len()) };
     let wanted = pairs::starts(before.0, robots);
-    let old = known.rows(before, robots, &wanted, || began.elapsed() < patience / 2);
+    let old = known.rows(before, robots, &wanted, || is_time(2));
     // which of the places of before, in the order of their names, each one is
     let known_as = |place: &Place| {
         let found = before.0.places.binary_search_by(|old| old.place.cmp(&place.place)).ok();
@@ -84,7 +81,7 @@ pub(super) fn compare(
     let was: Vec<Option<usize>> = after.0.places.iter().map(known_as).collect();
     let is_ready = |&(robot, start): &From| was[start].is_none_or(|start| old.contains_key(&(robot, start)));
     let wanted: Vec<From> = pairs::starts(after.0, robots).into_iter().filter(is_ready).collect();
-    let new = pairs::rows(after, robots, &wanted, || began.elapsed() < patience);
+    let new = pairs::rows(after, robots, &wanted, || is_time(1));
     for ((robot, start), row) in &new {
         for (goal, new) in row.iter().enumerate().filter(|(goal, _)| goal != start) {
             let of_before = was[*start].zip(was[goal]);

@@ -6,6 +6,7 @@ mod edits;
 mod experience;
 mod extract;
 mod facts;
+mod floor;
 mod follow;
 mod history;
 mod map;
@@ -55,6 +56,7 @@ fn described() -> (Router<Arc<Shared>>, OpenApi) {
         .routes(routes!(service::openapi))
         .routes(routes!(service::metrics))
         .routes(routes!(map::map))
+        .routes(routes!(floor::floor))
         .routes(routes!(map::weights))
         .routes(routes!(map::picture))
         .routes(routes!(route::route))
@@ -81,6 +83,8 @@ fn described() -> (Router<Arc<Shared>>, OpenApi) {
         .routes(routes!(rules::check))
         .routes(routes!(rules::versions))
         .routes(routes!(rules::complete))
+        .routes(routes!(rules::classes))
+        .routes(routes!(rules::tables))
         .routes(routes!(rules::made_test))
         .routes(routes!(sql::ask, sql::download))
         .routes(routes!(sql::schema))

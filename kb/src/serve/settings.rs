@@ -25,6 +25,14 @@ pub struct Proposal {
     pub what: Option<String>,
 }
 
+/// A class that rules may speak of.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, ToSchema)]
+pub struct Known {
+    pub class: Proposal,
+    /// What its objects have.
+    pub properties: Vec<Proposal>,
+}
+
 /// A rule file as it is written: the site, files with their texts in place of what is saved, its name, and a byte of its text.
 pub type Complete = fn(&KnowledgeBase, &Drafts, &str, usize) -> Result<Vec<Proposal>>;
 
@@ -50,6 +58,8 @@ pub struct Settings {
     pub log: fn(&str),
     /// Knows what may stand where somebody types.
     pub complete: Complete,
+    /// Knows what rules may speak of.
+    pub classes: fn(&KnowledgeBase) -> Result<Vec<Known>>,
 }
 
 impl Settings {

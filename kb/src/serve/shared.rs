@@ -139,14 +139,16 @@ impl Shared {
     }
 
     /// Asks a copy of what is known after all edits that were asked for before, on which others may be tried. There are no more
-    /// copies than places.
+    /// copies than places. Where whoever asked hangs up, it is given up before its next stage.
     pub async fn on_fork<T: Send + 'static>(
         self: &Arc<Self>,
         asker: &Arc<Asker>,
         work: impl FnOnce(State) -> Result<T> + Send + 'static,
     ) -> Answered<T> {
         let place = self.long.take(asker).await;
+        let waits = Arc::new(());
         let fork = self.edit_at_desk(asker, &Waiting::default(), |desk| Ok(desk.live.fork())).await?;
+        let fork = fork.waited_for_by(Arc::downgrade(&waits));
         beside(place, move || work(fork)).await
     }
 

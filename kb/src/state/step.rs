@@ -70,7 +70,8 @@ impl State {
         progress: &dyn Progress,
     ) -> Result<Step> {
         let step = self.follow(told, recall, progress);
-        if step.is_err() {
+        // a fork that nobody waits for is not asked again
+        if step.is_err() && self.is_waited_for() {
             self.take_back()?;
         }
         step
@@ -94,6 +95,7 @@ impl State {
         };
         told.notes.extend(notes);
         let given = self.ask_planners((&world, &told), &mut changes, (recall, progress, &mut clock))?;
+        self.go_on()?;
         let places = self.places_of(&world);
         if given.is_any {
             attached = Attached::default();
@@ -304,6 +306,7 @@ impl State {
         let mut runs = 0;
         while let Some(ready) = waiting.iter().position(|&at| self.missing(planners[at].as_ref()).is_empty())
         {
+            self.go_on()?;
             let at = waiting.remove(ready);
             let planner = planners[at].as_ref();
             let name = planner.name();
@@ -332,6 +335,7 @@ impl State {
                 told.tell(&mut self.knowledge, &class, &mut Attached::default())?;
                 given.take(class, table)?;
             }
+            self.go_on()?;
             given.is_any = true;
             clock.lap_of(name, is_kept);
             progress.stage("rules");

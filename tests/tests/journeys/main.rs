@@ -21,6 +21,7 @@ mod floor_sites;
 mod foreign_hands;
 mod from_rule_files;
 mod geodata;
+mod given_up;
 mod hours;
 mod house;
 mod laid;

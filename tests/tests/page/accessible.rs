@@ -97,3 +97,36 @@ async fn what_is_touched_is_as_large_as_a_finger() {
     let small = browser.value(small).await;
     assert!(small.as_array().unwrap().is_empty(), "{small:#}");
 }
+
+/// The grids of decision tables, with all that may be amiss marked, and the classes beside the editor.
+#[tokio::test(flavor = "multi_thread")]
+async fn nothing_serious_about_grids_and_classes() {
+    let site = TestSite::example("shop").built();
+    let service = Service::start(&site);
+    let (axe, mut all) = (axe(), Vec::new());
+    for screen in [Screen::Desktop, Screen::Phone] {
+        let browser = Browser::open(&service.page("#rules?file=orders.rhai"), screen).await;
+        for theme in ["light", "dark"] {
+            browser.run(&format!("localStorage.setItem('adit-theme', '{theme}'); location.reload()")).await;
+            browser.says("#rules-tables", "order.goods").await;
+            browser
+                .run("const area = document.querySelector('#rules textarea'); area.value = area.value.replace('\"discount\" first', '\"discount\" unique').replace('at_least(100.0)', 'at_least(120.0)').replace('between(50.0', 'between(40.0'); area.dispatchEvent(new Event('input', { bubbles: true }))")
+                .await;
+            browser.says("#rules-tables .amiss", "overlaps").await;
+            browser.click("#vocabulary summary").await;
+            browser.type_into("#vocabulary input", "price").await;
+            browser.says(".vocabulary", "price").await;
+            browser.run("document.getElementById('rules-tables').scrollIntoView()").await;
+            browser.screenshot(&format!("{screen:?}-{theme}-grids").to_lowercase()).await;
+            for found in violations(&browser, &axe).await {
+                all.push(format!("{screen:?} {theme}: {found}"));
+            }
+            let wide = browser.value("document.documentElement.scrollWidth - innerWidth").await;
+            if wide.as_f64().unwrap() > 0.0 {
+                all.push(format!("{screen:?} {theme}: {wide} pixels too wide"));
+            }
+            browser.press("#preview", "Discard").await;
+        }
+    }
+    assert!(all.is_empty(), "{}", all.join("\n"));
+}

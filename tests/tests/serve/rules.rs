@@ -278,3 +278,22 @@ fn the_program_tells_of_edited_rules_and_takes_them_back() {
     assert_eq!(site.read("rules/rooms.rhai"), text);
     assert_eq!(site.sqlite3("SELECT hardness FROM robots WHERE state = 'SQUAT'"), ["4.0"]);
 }
+
+#[test]
+fn decision_tables_are_read_as_grids_as_they_are_saved_and_as_they_are_typed() {
+    let (site, service) = crate::served("shop");
+    let ask = |body: Value| service.ask("POST", "/api/rules/tables", Some(&body));
+    let (status, saved) = ask(json!({"file": "orders.rhai"}));
+    let grid = &saved["tables"][0];
+    assert_eq!((status, &grid["name"], &grid["hit"]), (200, &json!("discount"), &json!("first")), "{saved}");
+    assert_eq!(grid["given"], json!(["order.goods", "order.customer.club ?? false"]));
+    assert_eq!(grid["rows"][1]["tests"], json!(["from 50 to below 100", "any"]));
+    assert_eq!((&grid["amiss"], &grid["missing"]), (&json!([]), &Value::Null));
+    let typed = site.read("rules/orders.rhai").replace("at_least(100.0)", "at_least(120.0)");
+    let (_, typed) = ask(json!({"file": "orders.rhai", "text": typed}));
+    let grid = &typed["tables"][0];
+    assert_eq!(grid["amiss"][0]["what"], "gap", "{grid}");
+    assert_eq!(grid["missing"][1], "", "{grid}");
+    let (status, refused) = ask(json!({"file": "nothing.rhai"}));
+    assert_eq!((status, &refused["error"]["code"]), (400, &json!("service/path")), "{refused}");
+}

@@ -87,11 +87,12 @@ impl Reader<'_> {
             self.wrong(expr.start_position(), "a table looks at one input at least".to_owned());
             return None;
         }
-        let named = |(nth, input): (usize, &Expr)| match property_of(input) {
+        let written = self.file.source.cells(expr.start_position());
+        let named = |(input, written): (&Expr, String)| match property_of(input) {
             Some((variable, property, _)) => format!("{variable}.{property}"),
-            None => format!("input {}", nth + 1),
+            None => written,
         };
-        Some(inputs.iter().enumerate().map(|(nth, input)| (input.clone(), named((nth, input)))).collect())
+        Some(inputs.iter().zip(written).map(|both| (both.0.clone(), named(both))).collect())
     }
 
     fn set(&mut self, expr: &Expr, clauses: &[Clause]) -> Option<Vec<(usize, String, Position)>> {

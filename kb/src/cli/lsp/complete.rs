@@ -91,7 +91,7 @@ fn field(
     library.classes.along(class, links).map_or_else(Vec::new, |class| properties(library, vocabulary, class))
 }
 
-fn classes(library: &Library, vocabulary: &Vocabulary) -> Vec<CompletionItem> {
+pub fn classes(library: &Library, vocabulary: &Vocabulary) -> Vec<CompletionItem> {
     let given =
         vocabulary.classes().into_iter().map(|class| (class, manual().of_class(class).map(str::to_owned)));
     let declared = library.classes.parents.iter();
@@ -103,7 +103,7 @@ fn classes(library: &Library, vocabulary: &Vocabulary) -> Vec<CompletionItem> {
         .collect()
 }
 
-fn properties(library: &Library, vocabulary: &Vocabulary, class: &str) -> Vec<CompletionItem> {
+pub fn properties(library: &Library, vocabulary: &Vocabulary, class: &str) -> Vec<CompletionItem> {
     let mut found: BTreeMap<&str, Option<&'static str>> = BTreeMap::new();
     for (property, kind) in vocabulary.given(class) {
         found.insert(property, kind.map(called));

@@ -8,7 +8,9 @@ use utoipa::ToSchema;
 
 use super::extract::{Asked, Site};
 use crate::graph::{Building, SiteGraph};
+use crate::live::View;
 use crate::serve::fault::Answered;
+use adit_db::door::{Door, DoorKind};
 use adit_db::space::{Doorway, Space};
 use adit_planners::geometry::Convex;
 use adit_planners::world::{Shape, World};
@@ -19,9 +21,9 @@ pub struct MapAnswer {
     layout: String,
     generation: u64,
     /// The map's edges: x0, y0, x1, y1.
-    bounds: [f64; 4],
+    pub(super) bounds: [f64; 4],
     /// Everything solid: polygons as x, y, x, y, …
-    walls: Vec<Vec<f64>>,
+    pub(super) walls: Vec<Vec<f64>>,
     bridges: Vec<BridgeOf>,
     areas: Vec<AreaOf>,
     named_doors: Vec<NamedDoorOf>,
@@ -33,9 +35,9 @@ pub struct MapAnswer {
     /// The layers of robots' states; none in the paper's modes.
     layers: Vec<LayerOf>,
     /// Rooms, by number.
-    rooms: Vec<RoomOf>,
+    pub(super) rooms: Vec<RoomOf>,
     /// Doors, by number.
-    doors: Vec<DoorOf>,
+    pub(super) doors: Vec<DoorOf>,
 }
 
 #[derive(Serialize, ToSchema)]
@@ -98,89 +100,101 @@ struct LayerOf {
 }
 
 #[derive(Serialize, ToSchema)]
-struct RoomOf {
-    room: i64,
-    name: String,
+pub(super) struct RoomOf {
+    pub(super) room: i64,
+    pub(super) name: String,
     /// Index among the layers.
-    layer: Option<usize>,
+    pub(super) layer: Option<usize>,
     /// The least rectangle about it: x0, y0, x1, y1.
-    rect: [f64; 4],
+    pub(super) rect: [f64; 4],
     /// Its corners counterclockwise, as x, y, x, y, …; absent where it is that rectangle.
     #[serde(skip_serializing_if = "Option::is_none")]
-    outline: Option<Vec<f64>>,
+    pub(super) outline: Option<Vec<f64>>,
     /// Metres; null: unlimited.
     height: Option<f64>,
 }
 
 #[derive(Serialize, ToSchema)]
-struct DoorOf {
-    door: i64,
+pub(super) struct DoorOf {
+    pub(super) door: i64,
     /// door or change (of shape).
     kind: &'static str,
-    room1: i64,
+    pub(super) room1: i64,
     room2: i64,
     /// Where it is crossed, from x0, y0 to x1, y1; of a change the least rectangle about its area.
-    segment: [f64; 4],
+    pub(super) segment: [f64; 4],
     one_way: bool,
 }
 
 /// The floor: walls, rooms and doors.
 #[utoipa::path(get, path = "/api/map", tag = "map", responses((status = 200, body = MapAnswer)))]
 pub async fn map(site: Site) -> Json<MapAnswer> {
-    let seen = site.view.load();
-    let (graph, world) = (seen.view.graph(), seen.view.world());
-    let (layers, rooms) = rooms(graph);
-    let b = world.bounds;
-    Json(MapAnswer {
-        layout: seen.view.layout().to_owned(),
-        generation: seen.view.generation(),
-        bounds: [b.x0, b.y0, b.x1, b.y1],
-        walls: walls(world),
-        bridges: world
-            .bridges
-            .iter()
-            .map(|bridge| BridgeOf { rect: rect(&bridge.rect), height: bridge.height })
-            .collect(),
-        areas: world
-            .areas
-            .iter()
-            .map(|area| AreaOf {
-                name: area.name.clone(),
-                kind: area.kind.clone(),
-                polygon: corners(&area.shape),
-            })
-            .collect(),
-        named_doors: world
-            .named_doors
-            .iter()
-            .map(|door| NamedDoorOf {
-                name: door.name.clone(),
-                from: [door.from.x, door.from.y],
-                to: [door.to.x, door.to.y],
-            })
-            .collect(),
-        places: seen
-            .view
-            .places()
-            .map(|place| PlaceOf { place: place.place.clone(), x: place.x, y: place.y })
-            .collect(),
-        spaces: graph.building.spaces.iter().map(space).collect(),
-        doorways: graph.building.doorways.iter().map(doorway).collect(),
-        layers,
-        rooms,
-        doors: graph
-            .doors
-            .iter()
-            .map(|door| DoorOf {
-                door: door.door,
-                kind: if matches!(door.kind, adit_db::door::DoorKind::Door) { "door" } else { "change" },
-                room1: door.side1.room,
-                room2: door.side2.room,
-                segment: door.segment,
-                one_way: door.one_way,
-            })
-            .collect(),
-    })
+    Json(MapAnswer::of(&site.view.load().view, true))
+}
+
+/// Doors in their order, those at which a robot changes its shape where `with_changes`.
+fn doors(graph: &SiteGraph, with_changes: bool) -> impl Iterator<Item = &Door> {
+    graph.doors.iter().filter(move |door| with_changes || is_door(door))
+}
+
+fn is_door(door: &Door) -> bool {
+    matches!(door.kind, DoorKind::Door)
+}
+
+impl MapAnswer {
+    /// What is seen, with the doors at which a robot changes its shape or without them.
+    pub(super) fn of(view: &View, with_changes: bool) -> Self {
+        let (graph, world) = (view.graph(), view.world());
+        let (layers, rooms) = rooms(graph);
+        let b = world.bounds;
+        Self {
+            layout: view.layout().to_owned(),
+            generation: view.generation(),
+            bounds: [b.x0, b.y0, b.x1, b.y1],
+            walls: walls(world),
+            bridges: world
+                .bridges
+                .iter()
+                .map(|bridge| BridgeOf { rect: rect(&bridge.rect), height: bridge.height })
+                .collect(),
+            areas: world
+                .areas
+                .iter()
+                .map(|area| AreaOf {
+                    name: area.name.clone(),
+                    kind: area.kind.clone(),
+                    polygon: corners(&area.shape),
+                })
+                .collect(),
+            named_doors: world
+                .named_doors
+                .iter()
+                .map(|door| NamedDoorOf {
+                    name: door.name.clone(),
+                    from: [door.from.x, door.from.y],
+                    to: [door.to.x, door.to.y],
+                })
+                .collect(),
+            places: view
+                .places()
+                .map(|place| PlaceOf { place: place.place.clone(), x: place.x, y: place.y })
+                .collect(),
+            spaces: graph.building.spaces.iter().map(space).collect(),
+            doorways: graph.building.doorways.iter().map(doorway).collect(),
+            layers,
+            rooms,
+            doors: doors(graph, with_changes)
+                .map(|door| DoorOf {
+                    door: door.door,
+                    kind: if is_door(door) { "door" } else { "change" },
+                    room1: door.side1.room,
+                    room2: door.side2.room,
+                    segment: door.segment,
+                    one_way: door.one_way,
+                })
+                .collect(),
+        }
+    }
 }
 
 #[derive(Deserialize)]
@@ -312,12 +326,20 @@ struct Weights {
     passable: Vec<Option<bool>>,
 }
 
+#[derive(Deserialize)]
+pub struct Weighed {
+    changes: Option<bool>,
+}
+
 /// What rules say of rooms and doors, in the order of `/api/map`.
-#[utoipa::path(get, path = "/api/weights", tag = "map", responses((status = 200, body = WeightsAnswer)))]
-pub async fn weights(site: Site) -> Json<WeightsAnswer> {
+#[utoipa::path(get, path = "/api/weights", tag = "map",
+    params(("changes" = Option<bool>, Query, description = "false: without the doors at which a robot changes its shape, as `/api/floor` has them")),
+    responses((status = 200, body = WeightsAnswer)))]
+pub async fn weights(site: Site, Asked(asked): Asked<Weighed>) -> Json<WeightsAnswer> {
     let seen = site.view.load();
     let graph = seen.view.graph();
-    let (rooms, doors, building) = (&graph.rooms, &graph.doors, &graph.building);
+    let (rooms, building) = (&graph.rooms, &graph.building);
+    let doors: Vec<&Door> = doors(graph, asked.changes != Some(false)).collect();
     Json(WeightsAnswer {
         layout: seen.view.layout().to_owned(),
         generation: seen.view.generation(),

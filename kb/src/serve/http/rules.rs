@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use adit_db::Cell;
-use adit_engine::SourceFile;
+use adit_engine::{Grid, SourceFile};
 use axum::Json;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
@@ -22,7 +22,7 @@ use crate::serve::desk::Desk;
 use crate::serve::fault::{Answered, Failure, Fault};
 use crate::serve::gate::require;
 use crate::serve::role::{Caller, Role};
-use crate::serve::settings::Proposal;
+use crate::serve::settings::{Known, Proposal};
 use crate::site::base::Base;
 use crate::site::journal::FILES;
 use crate::site::rules::{self, version};
@@ -379,6 +379,61 @@ pub async fn complete(
         Ok(CompleteAnswer { proposals: complete(view.site(), &drafts, &file, byte)? })
     });
     answer.await.map(Json)
+}
+
+#[derive(Serialize, ToSchema)]
+pub struct ClassesAnswer {
+    /// By name.
+    classes: Vec<Known>,
+}
+
+/// What rules may speak of: classes with their properties, the types of these, and what the manual says of them.
+#[utoipa::path(get, path = "/api/rules/classes", tag = "rules", responses((status = 200, body = ClassesAnswer)))]
+pub async fn classes(site: Site) -> Answered<Json<ClassesAnswer>> {
+    let (view, classes) = (site.view.load().view.clone(), site.settings.classes);
+    site.at_length(move || Ok(ClassesAnswer { classes: classes(view.site())? })).await.map(Json)
+}
+
+#[derive(Debug, Deserialize, ToSchema)]
+#[serde(deny_unknown_fields)]
+pub struct TablesBody {
+    /// The file, as the list of rules calls it.
+    file: String,
+    /// A text in place of what is saved; it takes the role `rules`.
+    #[serde(default)]
+    text: Option<String>,
+}
+
+#[derive(Serialize, ToSchema)]
+pub struct TablesAnswer {
+    /// In the order of the file.
+    #[schema(value_type = Vec<Object>)]
+    tables: Vec<Grid>,
+}
+
+/// The decision tables of a rule file as people read them, with gaps, overlaps and rows that are never reached. A file that does
+/// not read has none.
+#[utoipa::path(post, path = "/api/rules/tables", tag = "rules", request_body = TablesBody,
+    responses((status = 200, body = TablesAnswer)))]
+pub async fn tables(
+    site: Site,
+    caller: Caller,
+    Body(body): Body<TablesBody>,
+) -> Answered<Json<TablesAnswer>> {
+    if body.text.is_some() {
+        require(&caller, Role::Rules)?;
+    }
+    let view = site.view.load().view.clone();
+    let TablesBody { file, text } = body;
+    let saved = |file: &str| -> Answered<Option<String>> {
+        let found = read(&view)?.files.into_iter().find(|of| of.file == file);
+        Ok(found.map(|of| of.text))
+    };
+    let Some(text) = text.map_or_else(|| saved(&file), |text| Ok(Some(text)))? else {
+        return Err(Fault::new(Code::ServicePath, format!("no rule file is called `{file}`")));
+    };
+    let tables = site.at_length(move || Ok(Grid::of(&SourceFile::new(file, text))));
+    Ok(Json(TablesAnswer { tables: tables.await? }))
 }
 
 #[derive(Deserialize)]
