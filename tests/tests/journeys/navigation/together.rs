@@ -6,7 +6,7 @@ use adit_tests::TestSite;
 use serde_json::Value;
 
 const ARGS: [&str; 11] =
-    ["--robot", "crawler", "--robots", "3", "--minutes", "8", "--doors", "3", "--seed", "3", "--tell"];
+    ["--robot", "crawler", "--robots", "3", "--minutes", "4", "--doors", "3", "--seed", "3", "--tell"];
 
 /// For each time that one told the site something while another was under way, and went on being so for a second, the seconds until
 /// the other had heard of it, or asked for a way itself; a minute, where it took longer. Who goes to where it can tell where it is does not listen.
@@ -30,7 +30,7 @@ fn three_drive_together_hear_of_each_other_and_touch_nothing_and_the_same_seed_g
     let robots: BTreeSet<&str> = first.iter().filter_map(|row| row["robot"].as_str()).collect();
     assert_eq!(robots, BTreeSet::from(["crawler 1", "crawler 2", "crawler 3"]));
     assert!(first.iter().all(|row| row["collided"] == false && row["right"] != false), "{first:?}");
-    assert!(first.iter().filter(|row| row["ending"] == "arrived").count() > 8, "{first:?}");
+    assert!(first.iter().filter(|row| row["ending"] == "arrived").count() > 5, "{first:?}");
     // what one told, the others heard at once, by the clock of the simulation
     let heard = site.sqlite3(HEARD);
     assert!(!heard.is_empty(), "nobody met anything");
