@@ -11,7 +11,7 @@ use adit_planners::body::Body;
 use adit_planners::geometry::{Point, Rect, Segment, polygon};
 use adit_planners::navigation::{Entry, Met, Mission, ROOM_M, Router, Stretch, draw_along, trip};
 use adit_planners::pose::Pose;
-use adit_planners::simulator::Film;
+use adit_planners::simulator::{Film, Obstacle};
 
 use super::ground::Ground;
 use super::judge::{Noting, RuleJudge};
@@ -434,8 +434,16 @@ impl Missions<'_> {
             }
         };
         let mission = draw_along(&ground.plan, &ground.doorways, radius, seed, way);
+        // on a place nothing can be laid, by which a mission is judged
+        let is_on_place = |thing: &Obstacle| {
+            let corners = thing.at_rest();
+            ground.plan.places().iter().any(|place| polygon::is_in_convex(&corners, place.at, HAIR_M))
+        };
         match (mission, trouble) {
-            (Some(mission), _) => Ok(mission),
+            (Some(mut mission), _) => {
+                mission.obstacles.retain(|thing| !is_on_place(thing));
+                Ok(mission)
+            }
             (None, Some(trouble)) => Err(trouble),
             (None, None) => {
                 let message =
