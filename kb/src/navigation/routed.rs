@@ -174,18 +174,22 @@ impl Site<'_> {
             edits.extend(wider(self.ground, 2.0 * beside_m));
         }
         let state = if is_wide { self.wide()? } else { self.live.fork() };
-        // where it fits nowhere near by what is told, nothing leads on
-        let is_hemmed =
-            |error: &Error| error.problems().iter().any(|problem| problem.code() == Some(Code::RouteSolid));
-        let ask = |state: State, errand: &Errand| match asked(
-            state,
-            &edits,
-            (from, &goal),
-            errand,
-            &self.ground.robot,
-        ) {
-            Err(error) if is_hemmed(&error) => Ok(None),
-            answer => answer.map(Some),
+        let has = |error: &Error, code| error.problems().iter().any(|problem| problem.code() == Some(code));
+        let ask = |state: State, errand: &Errand| {
+            let asked =
+                |errand: &Errand| asked(state.fork(), &edits, (from, &goal), errand, &self.ground.robot);
+            let answer = match asked(errand) {
+                // what was met beside the floor is in nobody's way
+                Err(error) if has(&error, Code::TellNoDoor) => {
+                    asked(&Errand { avoid: Vec::new(), ..errand.clone() })
+                }
+                answer => answer,
+            };
+            match answer {
+                // where it fits nowhere near by what is told, nothing leads on
+                Err(error) if has(&error, Code::RouteSolid) => Ok(None),
+                answer => answer.map(Some),
+            }
         };
         let answer = ask(state.fork(), &errand)?.filter(|answer| answer.cost.is_some());
         // where its shape does not fit by what it saw, another one may
