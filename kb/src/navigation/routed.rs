@@ -185,11 +185,7 @@ impl Site<'_> {
                 }
                 answer => answer,
             };
-            match answer {
-                // where it fits nowhere near by what is told, nothing leads on
-                Err(error) if has(&error, Code::RouteSolid) => Ok(None),
-                answer => answer.map(Some),
-            }
+            where_it_fits(answer)
         };
         let answer = ask(state.fork(), &errand)?.filter(|answer| answer.cost.is_some());
         // where its shape does not fit by what it saw, another one may
@@ -366,6 +362,14 @@ fn asked(
 ) -> Result<Answer> {
     let start = named_point(from);
     state.within(Some(OFF_M))?.route_after(edits, errand, (&start, goal), robot)
+}
+
+/// An answer; none where the robot fits nowhere near an end by what is told, from which nothing leads on.
+fn where_it_fits(answer: Result<Answer>) -> Result<Option<Answer>> {
+    match answer {
+        Err(error) if error.problems().iter().any(|one| one.code() == Some(Code::RouteSolid)) => Ok(None),
+        answer => answer.map(Some),
+    }
 }
 
 /// As ends of routes name it.
@@ -568,14 +572,14 @@ impl Missions<'_> {
         });
         let mut edits: Vec<Edit> = boxes.collect();
         let ends = (mission.start.at, goal);
-        let known = asked(self.live.fork(), &edits, ends, &errand, &self.ground.robot)?;
+        let known = where_it_fits(asked(self.live.fork(), &edits, ends, &errand, &self.ground.robot))?;
         edits.extend(wider(self.ground, 2.0 * ROOM_M));
-        let roomy = asked(self.live.fork(), &edits, ends, &errand, &self.ground.robot)?;
+        let roomy = where_it_fits(asked(self.live.fork(), &edits, ends, &errand, &self.ground.robot))?;
         Ok(Judged {
-            is_possible: known.cost.is_some(),
-            is_with_room: roomy.cost.is_some(),
-            least_cost: known.cost,
-            optimum_m: known.distance,
+            is_possible: known.as_ref().is_some_and(|known| known.cost.is_some()),
+            is_with_room: roomy.is_some_and(|roomy| roomy.cost.is_some()),
+            least_cost: known.as_ref().and_then(|known| known.cost),
+            optimum_m: known.and_then(|known| known.distance),
         })
     }
 }
