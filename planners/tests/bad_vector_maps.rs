@@ -122,6 +122,13 @@ fn a_place_is_named_once_inside_and_in_free_space() {
 }
 
 #[test]
+fn a_key_that_is_misspelt_is_not_told_to_be_missing_as_well() {
+    let (code, marked, problem) = only("[[obstacle]]\nrekt = [1, 1, 2, 2]");
+    assert_eq!((code, marked.as_str()), ("map/unknown-key", "rekt"));
+    assert_eq!(problem.help.as_deref(), Some("did you mean `rect`?"));
+}
+
+#[test]
 fn one_run_shows_everything() {
     let text = "width = 10\ndepth = 8\nwidht = 3\n[[obstacle]]\nrect = [1, 1, 1, 2]\n[[bridge]]\n\
                 rect = [1, 1, 2, 2]\nheight = 0\n[[place]]\nname = 'a'\nat = [20, 3]\n";

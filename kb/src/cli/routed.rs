@@ -60,11 +60,14 @@ fn together(args: &SimulateArgs, robots: usize, setting: &Setting, on: &mut Miss
     let seconds = f64::from(args.minutes) * 60.0;
     let what = Together { robots, seconds, doors: args.doors.into(), seed: args.seed, before: kept.before };
     let (mut rows, mut said): (Vec<Row>, Vec<String>) = Default::default();
-    on.together(&what, |on, journal, told| {
+    let bar = Bar::new("minutes", args.minutes.into());
+    let done = |on: &mut Missions<'_>, journal, told| {
         said.extend(told);
         rows.push(kept.keep(on.live, "simulated mission", journal)?);
         Ok(())
-    })?;
+    };
+    on.together(&what, done, || bar.step())?;
+    drop(bar);
     either(args.json, &rows[..], show)?;
     for text in &said {
         remark(text);

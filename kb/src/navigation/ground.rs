@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use adit_db::room::Room;
+use adit_db::route::Waypoint;
 use adit_planners::floor_plan::{Disc, FloorPlan, Network};
 use adit_planners::geometry::{Point, Rect, Segment, polygon};
 use adit_planners::navigation::{Building, Drivable, Outfit, Stretch};
@@ -60,6 +61,11 @@ fn floor(state: &State, of: &(String, String)) -> Vec<Vec<Point>> {
     let rooms = graph.rooms.iter().enumerate();
     let own = rooms.filter(|(_, room)| room.layer.as_ref() == Some(of) && is_weighed(room));
     own.map(|(index, _)| graph.outline(RoomIndex::new(index)).corners().collect()).collect()
+}
+
+/// Where a waypoint is.
+pub(super) const fn at(waypoint: &Waypoint) -> Point {
+    Point::new(waypoint.x, waypoint.y)
 }
 
 impl Ground {
@@ -182,6 +188,12 @@ impl Ground {
         self.shapes.all.iter().map(|shape| shape.radius_m).fold(f64::INFINITY, f64::min)
     }
 
+    /// Whether a route ends at a point, as near as a robot has to come to it.
+    pub fn leads_to(&self, answer: &Answer, goal: Point) -> bool {
+        let tolerance = self.driving.navigation.goal_tolerance_m;
+        answer.waypoints.last().is_some_and(|last| at(last).distance(goal) <= tolerance)
+    }
+
     /// A route as it is driven, from shape to shape; `None` where there is none.
     pub fn stretches(&self, answer: &Answer) -> Option<Vec<Stretch>> {
         if !matches!(answer.status, Status::Ok | Status::SameRoom) {
@@ -189,7 +201,7 @@ impl Ground {
         }
         let mut way: Vec<Stretch> = Vec::new();
         for waypoint in &answer.waypoints {
-            let (at, shape) = (Point::new(waypoint.x, waypoint.y), self.shape(waypoint.state.as_deref()?)?);
+            let (at, shape) = (at(waypoint), self.shape(waypoint.state.as_deref()?)?);
             match way.last_mut() {
                 Some(stretch) if stretch.shape == shape => stretch.points.push(at),
                 Some(stretch) => {

@@ -92,7 +92,7 @@ fn told(what: &Happening, shapes: &[String]) -> Told {
             ("located", None, Some(json!({"poses": poses, "anywhere": is_anywhere})))
         }
         Happening::Sought(at) => ("sought", None, Some(json!({"at": [at.x, at.y]}))),
-        Happening::Told(things) => ("told", None, Some(json!({"things": things}))),
+        Happening::Told { laid, lifted } => ("told", None, Some(json!({"laid": laid, "lifted": lifted}))),
         Happening::Heard { is_other } => ("heard", None, Some(json!({"other_way": is_other}))),
         Happening::Silent(why) => ("silent", None, Some(json!({"why": why}))),
         Happening::Retried => ("begun anew", None, None),

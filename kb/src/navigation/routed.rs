@@ -5,7 +5,6 @@ use std::mem;
 use std::time::Instant;
 
 use adit_db::history::Author;
-use adit_db::route::Waypoint;
 use adit_engine::{Considered, RuleBase};
 use adit_planners::body::Body;
 use adit_planners::geometry::{Point, Rect, Segment, polygon};
@@ -13,7 +12,7 @@ use adit_planners::navigation::{Entry, Met, Mission, ROOM_M, Router, Stretch, dr
 use adit_planners::pose::Pose;
 use adit_planners::simulator::{Film, Obstacle};
 
-use super::ground::Ground;
+use super::ground::{Ground, at};
 use super::judge::{Noting, RuleJudge};
 use super::missions::{Journal, Judged, Row, refuse};
 use crate::answer::Answer;
@@ -57,8 +56,8 @@ pub(super) struct OnMission {
     pub told: Vec<(String, Vec<Point>)>,
     /// How much was.
     laid: usize,
-    /// How much was laid or taken back since that was asked last.
-    passed_on: usize,
+    /// How much was laid, and how much taken back, since that was asked last.
+    passed_on: [usize; 2],
     /// The generation of the site of which it knows.
     known: u64,
     /// What became of it, in sentences.
@@ -75,7 +74,7 @@ impl OnMission {
             begun: stored(live.site().moment("0s")?),
             told,
             laid: 0,
-            passed_on: 0,
+            passed_on: [0; 2],
             known: live.generation(),
             said: Vec::new(),
             trouble: None,
@@ -108,7 +107,7 @@ impl Router for Site<'_> {
         })
     }
 
-    fn take_told(&mut self) -> usize {
+    fn take_told(&mut self) -> [usize; 2] {
         mem::take(&mut self.on.passed_on)
     }
 
@@ -148,12 +147,8 @@ impl Site<'_> {
     /// The best route where things stand that the robot met; `None` where there is none, or only one that ends beside the goal.
     fn asked(&mut self, ask: &Ask<'_>) -> Result<Option<Answer>> {
         let Ask { ends: [from, to], shape, met, room_m: least_m, is_wide } = *ask;
-        let lay = |what: &'static str| {
-            move |(number, thing): (usize, Vec<Point>)| {
-                Edit::Lay(laid(format!("{what} in this mission, {number}"), &thing))
-            }
-        };
-        let mut edits: Vec<Edit> = (1..).zip(self.things(met, from, least_m)).map(lay("met")).collect();
+        let state = if is_wide { self.wide()? } else { self.live.fork() };
+        let mut things = self.things(met, from, least_m);
         // Where what it met is known, the way is too narrow for it, though nobody else need find it so: what stands there stands
         // nearer, so that a shape with more room goes through; where nothing stands, it comes through in none.
         let stands_there = |at: Point| self.ground.walls.iter().any(|wall| wall.distance(at) <= HAIR_M);
@@ -162,30 +157,28 @@ impl Site<'_> {
         let nearer = stands.iter().map(|(number, one)| {
             grown_by(&Segment::new(one.at, one.at), self.thickness(&met[..*number], one))
         });
-        edits.extend((1..).zip(nearer).map(lay("narrow")));
+        things.extend(nearer);
+        // beside the floor nothing is in the way
+        let is_on_floor = |at: Point| {
+            !state.world.is_solid(at) && !things.iter().any(|thing| polygon::is_in_convex(thing, at, HAIR_M))
+        };
+        let narrow = narrow.into_iter().map(|(_, met)| met).filter(|met| is_on_floor(met.at));
         let errand = Errand {
-            avoid: narrow.into_iter().map(|(_, met)| named(met)).collect(),
+            avoid: narrow.map(named).collect(),
             start_state: Some(self.ground.states[shape].clone()),
             ..Errand::default()
         };
         let goal = named_point(to);
         let beside_m = self.ground.driving.navigation.beside_m;
+        let lay = |(number, thing): (usize, &Vec<Point>)| {
+            Edit::Lay(laid(format!("met in this mission, {number}"), thing))
+        };
+        let mut edits: Vec<Edit> = (1..).zip(&things).map(lay).collect();
         if is_wide {
             edits.extend(wider(self.ground, 2.0 * beside_m));
         }
-        let state = if is_wide { self.wide()? } else { self.live.fork() };
-        let has = |error: &Error, code| error.problems().iter().any(|problem| problem.code() == Some(code));
         let ask = |state: State, errand: &Errand| {
-            let asked =
-                |errand: &Errand| asked(state.fork(), &edits, (from, &goal), errand, &self.ground.robot);
-            let answer = match asked(errand) {
-                // what was met beside the floor is in nobody's way
-                Err(error) if has(&error, Code::TellNoDoor) => {
-                    asked(&Errand { avoid: Vec::new(), ..errand.clone() })
-                }
-                answer => answer,
-            };
-            where_it_fits(answer)
+            where_it_fits(asked(state, &edits, (from, &goal), errand, &self.ground.robot))
         };
         let answer = ask(state.fork(), &errand)?.filter(|answer| answer.cost.is_some());
         // where its shape does not fit by what it saw, another one may
@@ -193,15 +186,14 @@ impl Site<'_> {
             None => ask(state, &Errand { start_state: None, ..errand })?,
             answer => answer,
         };
-        let is_near = |waypoint: Option<&Waypoint>, to: Point, metres: f64| {
-            waypoint.is_some_and(|waypoint| Point::new(waypoint.x, waypoint.y).distance(to) <= metres)
+        // whoever stands where only the narrow fits goes on in the narrow
+        let begins_here = |answer: &Answer| {
+            !is_wide
+                || answer.waypoints.first().is_some_and(|first| at(first).distance(from) <= 2.0 * beside_m)
         };
-        let ends_there = |answer: &Answer| {
-            is_near(answer.waypoints.last(), to, self.ground.driving.navigation.goal_tolerance_m)
-                // whoever stands where only the narrow fits goes on in the narrow
-                && (!is_wide || is_near(answer.waypoints.first(), from, 2.0 * beside_m))
-        };
-        Ok(answer.filter(|answer| answer.cost.is_some() && ends_there(answer)))
+        Ok(answer.filter(|answer| {
+            answer.cost.is_some() && begins_here(answer) && self.ground.leads_to(answer, to)
+        }))
     }
 
     /// The site for a robot that is a little wider. It is cut anew for it once.
@@ -274,10 +266,15 @@ impl Site<'_> {
             }
         }
         if !edits.is_empty() {
-            let (before, count) = (self.live.generation(), edits.len());
+            let before = self.live.generation();
+            let lifted = edits.iter().filter(|edit| matches!(edit, Edit::Lift(_))).count();
+            let laid = edits.len() - lifted;
             let outcome = self.live.edit(&Edit::Together(edits), &author)?;
             // what lies where something lay before is no news
-            self.on.passed_on += if outcome.generation == before { 0 } else { count };
+            if outcome.generation != before {
+                let [laid_before, lifted_before] = self.on.passed_on;
+                self.on.passed_on = [laid_before + laid, lifted_before + lifted];
+            }
             self.on.said.extend(outcome.reacted);
         }
         Ok(())
@@ -571,13 +568,17 @@ impl Missions<'_> {
             Edit::Lay(laid(format!("unknown box {number}"), &obstacle.at_rest()))
         });
         let mut edits: Vec<Edit> = boxes.collect();
-        let ends = (mission.start.at, goal);
-        let known = where_it_fits(asked(self.live.fork(), &edits, ends, &errand, &self.ground.robot))?;
+        let best = |edits: &[Edit]| -> Result<Option<Answer>> {
+            let ends = (mission.start.at, goal);
+            let answer = where_it_fits(asked(self.live.fork(), edits, ends, &errand, &self.ground.robot))?;
+            Ok(answer.filter(|answer| answer.cost.is_some() && self.ground.leads_to(answer, mission.goal)))
+        };
+        let known = best(&edits)?;
         edits.extend(wider(self.ground, 2.0 * ROOM_M));
-        let roomy = where_it_fits(asked(self.live.fork(), &edits, ends, &errand, &self.ground.robot))?;
+        let roomy = best(&edits)?;
         Ok(Judged {
-            is_possible: known.as_ref().is_some_and(|known| known.cost.is_some()),
-            is_with_room: roomy.is_some_and(|roomy| roomy.cost.is_some()),
+            is_possible: known.is_some(),
+            is_with_room: roomy.is_some(),
             least_cost: known.as_ref().and_then(|known| known.cost),
             optimum_m: known.and_then(|known| known.distance),
         })

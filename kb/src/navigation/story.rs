@@ -4,7 +4,7 @@ use adit_db::mission::Happened;
 use serde::Serialize;
 use serde_json::Value;
 
-use crate::words::number::number;
+use crate::words::number::{counted, number};
 
 /// Something that happened, and how often it did, one time after the other.
 #[derive(Clone, Debug, Serialize)]
@@ -71,10 +71,17 @@ fn sentence(event: &str, detail: &Value) -> Option<String> {
         "sought" => {
             Some(format!("unsure where it was, it set out to {}, where walls tell", place(&detail["at"])?))
         }
-        "told" => Some(match detail["things"].as_u64()? {
-            1 => "it told the site of something that it met, or took that back".to_owned(),
-            things => format!("it told the site of {things} things that it met, or took them back"),
-        }),
+        "told" => {
+            let things = |of: &str| detail[of].as_u64().filter(|count| *count > 0);
+            let things = |of: &str| things(of).map(|count| counted(count as usize, "thing"));
+            Some(match (things("laid"), things("lifted")) {
+                (Some(laid), None) => format!("it told the site of {laid} that it met"),
+                (None, lifted) => format!("it told the site that {} stood there no longer", lifted?),
+                (Some(laid), Some(lifted)) => {
+                    format!("it told the site of {laid} that it met, and that {lifted} stood there no longer")
+                }
+            })
+        }
         "heard" if detail["other_way"] == true => {
             Some("others changed what ways there are, and it took another one".to_owned())
         }

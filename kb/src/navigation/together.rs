@@ -57,11 +57,27 @@ struct Errand {
 }
 
 impl<'l> Missions<'l> {
-    /// Has robots drive from errand to errand, together; `done` is told of each that ends, and what the site was told on it.
+    /// Has robots drive from errand to errand, together, by a clock of their own.
+    ///
+    /// # Arguments
+    /// `done` is told of each errand that ends, and what the site was told on it; `minute` of each minute that passed.
     pub fn together(
         &mut self,
         what: &Together,
+        done: impl FnMut(&mut Self, Journal, Vec<String>) -> Result<()>,
+        minute: impl FnMut(),
+    ) -> Result<()> {
+        let dial = self.live.site().dial.clone();
+        let driven = self.drive_together(what, done, minute);
+        dial.stop();
+        driven
+    }
+
+    fn drive_together(
+        &mut self,
+        what: &Together,
         mut done: impl FnMut(&mut Self, Journal, Vec<String>) -> Result<()>,
+        mut minute: impl FnMut(),
     ) -> Result<()> {
         let ground: &'l Ground = self.ground;
         let mut drawn = Drawn { seed: what.seed, next: 0 };
@@ -86,10 +102,14 @@ impl<'l> Missions<'l> {
         let mut doors = doors(&ground.doorways, what);
         let mut trails = Trails(vec![VecDeque::new(); robots.len()]);
         let began = self.live.site().clock().now();
-        let dial = self.live.site().dial.clone();
+        let mut passed_s = 0.0;
         loop {
             let time_s = robots[0].body().time_s();
-            dial.set(began, time_s);
+            self.live.site().dial.set(began, time_s);
+            if time_s >= passed_s + 60.0 && time_s <= what.seconds {
+                passed_s += 60.0;
+                minute();
+            }
             trails.note(&robots);
             for door in &mut doors {
                 door.follow(time_s, &robots);
@@ -136,7 +156,6 @@ impl<'l> Missions<'l> {
                 break;
             }
         }
-        dial.stop();
         drop(notings);
         judges.iter().try_for_each(|judge| refuse(judge.trouble()))
     }

@@ -78,8 +78,13 @@ pub enum Happening {
     },
     /// The robot sets out to where known walls tell where it is.
     Sought(Point),
-    /// What was met was passed on to everybody, or taken back: so many things.
-    Told(usize),
+    /// What was met was passed on to everybody, or taken back.
+    Told {
+        /// So many things were passed on.
+        laid: usize,
+        /// So many were taken back.
+        lifted: usize,
+    },
     /// Others changed what ways there are.
     Heard {
         /// Whether the best way is another one than the robot was on.

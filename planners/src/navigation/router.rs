@@ -25,9 +25,9 @@ pub trait Router {
     /// `met` is where the robot found its way closed, the latest last; none of it any more after it has begun anew.
     fn way(&mut self, ends: [Point; 2], shape: usize, met: &[Met]) -> Option<Vec<Stretch>>;
 
-    /// How much whoever finds ways was told, and passed on to everybody, since this was asked last.
-    fn take_told(&mut self) -> usize {
-        0
+    /// How much of what the robot met was passed on to everybody, and how much taken back, since this was asked last.
+    fn take_told(&mut self) -> [usize; 2] {
+        [0; 2]
     }
 
     /// Whether others have changed what ways there are since a way was asked for.

@@ -70,6 +70,10 @@ pub(crate) fn span_in(text: &str, location: serde_saphyr::Location) -> Range<usi
     before + within..before + within
 }
 
+fn is_meant(key: &str) -> String {
+    format!("did you mean `{key}`?")
+}
+
 /// One table of a document, and where to report what is wrong with it.
 pub struct Fields<'a, 'i> {
     /// How messages call it: `[[obstacle]]`.
@@ -84,13 +88,23 @@ impl Fields<'_, '_> {
     /// Refuses every key that is not one of `known`.
     pub fn refuse_unknown(&self, known: &[&str], problems: &mut Vec<Problem>) {
         for key in self.table.keys().filter(|key| !known.contains(&&**key.get_ref())) {
-            let message = format!("`{}` is not a key of {}", key.get_ref(), self.what);
+            let message = self.unknown(key.get_ref());
             let help = match nearest(key.get_ref(), known) {
-                Some(meant) => format!("did you mean `{meant}`?"),
+                Some(meant) => is_meant(meant),
                 None => format!("known keys: {}", known.join(", ")),
             };
             problems.push(self.text.problem(Code::UnknownKey, &key.span(), message).with_help(help));
         }
+    }
+
+    fn unknown(&self, key: &str) -> String {
+        format!("`{key}` is not a key of {}", self.what)
+    }
+
+    /// Whether a key that is not there stands there in another spelling, and that is said already.
+    fn is_misspelt(&self, key: &str, problems: &[Problem]) -> bool {
+        let mut said = problems.iter().filter(|problem| problem.help.as_ref() == Some(&is_meant(key)));
+        said.any(|problem| self.table.keys().any(|other| problem.message == self.unknown(other.get_ref())))
     }
 
     pub fn get(&self, key: &str) -> Option<&Spanned<DeValue<'_>>> {
@@ -100,7 +114,7 @@ impl Fields<'_, '_> {
     /// The value of a key that must be there.
     fn require(&self, key: &str, problems: &mut Vec<Problem>) -> Option<&Spanned<DeValue<'_>>> {
         let value = self.get(key);
-        if value.is_none() {
+        if value.is_none() && !self.is_misspelt(key, problems) {
             let message = format!("{} needs a `{key}`", self.what);
             problems.push(self.text.problem(Code::MissingKey, &self.span, message));
         }

@@ -61,10 +61,10 @@ impl Navigator<'_> {
         }
     }
 
-    /// Notes that so much of what it met was passed on to everybody.
-    pub(in crate::navigation) fn has_told(&mut self, things: usize) {
-        if things > 0 {
-            self.tell(Happening::Told(things));
+    /// Notes how much of what it met was passed on to everybody, and how much taken back.
+    pub(in crate::navigation) fn has_told(&mut self, [laid, lifted]: [usize; 2]) {
+        if laid + lifted > 0 {
+            self.tell(Happening::Told { laid, lifted });
         }
     }
 
