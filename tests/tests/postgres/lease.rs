@@ -9,7 +9,10 @@ use tempfile::TempDir;
 
 use super::with_site;
 
-const LASTS: Duration = Duration::from_millis(600);
+const LASTS: Duration = Duration::from_secs(1);
+
+/// So long that its owner does not keep it up while a test runs.
+const NOT_KEPT_UP: Duration = Duration::from_secs(3600);
 
 /// A copy of the site `paper`, as a service has it.
 struct Copy {
@@ -19,10 +22,14 @@ struct Copy {
 
 impl Copy {
     fn of(cluster: &Cluster, owner: &str) -> Self {
+        Self::lasting(cluster, owner, LASTS)
+    }
+
+    fn lasting(cluster: &Cluster, owner: &str, lasts: Duration) -> Self {
         let folder = tempfile::tempdir().unwrap();
         let file = folder.path().join("site.db");
         let place = Place::parse(&cluster.url("paper")).unwrap();
-        let replica = Replica::make_lasting(&place, ("paper", owner), &file, LASTS).unwrap();
+        let replica = Replica::make_lasting(&place, ("paper", owner), &file, lasts).unwrap();
         Self { store: Store::open_copy(&file, replica).unwrap(), _folder: folder }
     }
 
@@ -52,19 +59,28 @@ fn is_fenced(done: &Result<(), Error>) -> bool {
 }
 
 #[test]
-fn a_holder_that_was_paused_cannot_commit_what_it_began() {
+fn the_right_to_write_lasts_while_its_holder_lives() {
     let (cluster, _site) = with_site("paper");
-    let (mut old, mut new) = (Copy::of(&cluster, "old"), Copy::of(&cluster, "new"));
+    let (mut holder, mut other) = (Copy::of(&cluster, "holder"), Copy::of(&cluster, "other"));
     assert!(
-        matches!(old.write("none"), Err(Error::Postgres(Failure::Held(_)))),
+        matches!(holder.write("none"), Err(Error::Postgres(Failure::Held(_)))),
         "without the right nothing is written"
     );
+    assert!(holder.store.lead().unwrap());
+    assert!(!other.store.lead().unwrap(), "another has it");
+    std::thread::sleep(2 * LASTS);
+    assert!(!other.store.lead().unwrap(), "it is kept up");
+    drop(holder);
+    std::thread::sleep(2 * LASTS);
+    assert!(other.store.lead().unwrap(), "it is kept up no more");
+}
+
+#[test]
+fn a_holder_that_was_paused_cannot_commit_what_it_began() {
+    let (cluster, _site) = with_site("paper");
+    let (mut old, mut new) = (Copy::lasting(&cluster, "old", NOT_KEPT_UP), Copy::of(&cluster, "new"));
     assert!(old.store.lead().unwrap());
-    assert!(!new.store.lead().unwrap(), "another has it");
-    // it lasts while its owner lives
-    std::thread::sleep(3 * LASTS);
-    assert!(!new.store.lead().unwrap());
-    // the owner is paused: nobody keeps it up
+    // a paused holder keeps nothing up, and this is how that looks to others
     cluster.ask("UPDATE adit.sites SET ends = now() - interval '1 second' WHERE site = 'paper'");
     let done = old.store.transaction(|tx| -> Result<(), Error> {
         tx.set_site_value("test", Some("old"))?;
