@@ -68,6 +68,9 @@ pub struct SimulateArgs {
     /// Keep each mission with its journal in this database
     #[arg(long, value_name = "FILE")]
     pub db: Option<PathBuf>,
+    /// On each mission that is drawn somebody carries the robot off once, of which it is told nothing
+    #[arg(long, conflicts_with_all = ["start", "robots", "learn", "drive", "curve"])]
+    pub kidnap: bool,
     /// So many robots at once, where rooms are cut by state: each drives from errand to errand, in the way of the others, and hears
     /// what they tell the site
     #[arg(long, value_name = "N", requires = "tell", conflicts_with_all = ["start", "film", "learn", "learned", "curve"],
@@ -99,8 +102,8 @@ pub struct SimulateArgs {
     /// Instead of missions, drive by hand in the learned building: a file of orders, or `-` for standard input
     #[arg(long, value_name = "FILE", requires = "learned", conflicts_with_all = ["start", "film"])]
     pub drive: Option<PathBuf>,
-    /// Instead of missions, drive from stop to stop, and draw how wrong the estimated pose is over the distance, with the
-    /// walls known and with a model built on the way: .svg or .png; --missions says how many drives of each
+    /// Instead of missions, drive from stop to stop, and draw how wrong the estimated pose is over the distance: .svg or
+    /// .png; on a floor plan with the walls known and with a model built on the way. --missions says how many drives of each
     #[arg(long, value_name = "FILE", conflicts_with_all = ["start", "db", "film"])]
     pub curve: Option<PathBuf>,
     /// How far such a drive goes

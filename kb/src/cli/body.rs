@@ -73,8 +73,7 @@ pub fn body(args: &BodyArgs) -> Result<()> {
     let heading = heading(args.heading)?;
     let site = SiteArgs { site: args.site.clone(), db: None, rules: args.rules.clone(), json: false };
     let live = Live::open(open(&site)?)?;
-    let mission =
-        |at| Mission { start: Pose { at, heading }, goal: at, obstacles: Vec::new(), seed: args.seed };
+    let mission = |at| Mission::between(Pose { at, heading }, at, args.seed);
     if live.site().course().is_some() {
         let (robot, floor) = of_robot(&live, args.robot.as_deref())?;
         let at = floor.point(&args.start)?;

@@ -6,15 +6,20 @@ use super::args::SimulateArgs;
 use super::output::{either, table};
 use super::picture;
 use crate::error::{Code, Error, Result};
-use crate::navigation::floor::Floor;
-use crate::navigation::judge::Judges;
-use crate::navigation::tours::{Driven, draw, drive};
+use crate::navigation::tours::{Driven, draw};
 
 /// A drive is at most so long, metres.
 const FARTHEST_M: f64 = 100_000.0;
 
 /// Drives, draws and prints a row a drive.
-pub fn run(args: &SimulateArgs, output: &Path, floor: &Floor, judges: &Judges) -> Result<()> {
+///
+/// # Arguments
+/// `drive` has so many drives driven so far, metres, from the first seed on.
+pub fn run(
+    args: &SimulateArgs,
+    (world, output): (&str, &Path),
+    drive: impl FnOnce(f64, u64, u64) -> Result<Vec<Driven>>,
+) -> Result<()> {
     picture::check(output)?;
     if !(args.metres > 0.0 && args.metres <= FARTHEST_M) {
         let message = format!(
@@ -23,8 +28,8 @@ pub fn run(args: &SimulateArgs, output: &Path, floor: &Floor, judges: &Judges) -
         );
         return Err(Error::said(Code::SimulateMetres, message, None));
     }
-    let drives = drive(floor, judges, args.metres, u64::from(args.missions), args.seed)?;
-    picture::save(draw(&floor.plan.name, &drives), output, picture::WIDTH)?;
+    let drives = drive(args.metres, u64::from(args.missions), args.seed)?;
+    picture::save(draw(world, &drives), output, picture::WIDTH)?;
     either(args.json, &drives[..], show)
 }
 

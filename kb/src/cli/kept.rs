@@ -4,6 +4,7 @@ use std::path::Path;
 
 use adit_db::Store;
 use adit_db::history::Author;
+use adit_planners::navigation::Pace;
 
 use super::missions::last_mission;
 use crate::error::Result;
@@ -51,7 +52,7 @@ impl<'o> Kept<'o> {
             store.transaction(|tx| tx.keep_mission(&record))?;
         }
         // who is not kept has no number of its own, by which what was measured is told apart
-        if self.has_traversals && !row.by_state.is_empty() {
+        if self.has_traversals && !row.paces.is_empty() {
             let author = Author { who: robot.to_owned(), why: String::new() };
             let mission = format!("{words} {} of {world}", row.mission);
             live.site().add_traversals(&traversals(&mission, robot, &row), Some("seconds"), &author)?;
@@ -60,15 +61,16 @@ impl<'o> Kept<'o> {
     }
 }
 
-/// What the robot measured on its way, as `adit fit` reads it.
+/// How fast the robot was in each state, as `adit fit` reads it.
 fn traversals(mission: &str, robot: &str, row: &Row) -> Vec<Traversal> {
-    let of_state = |(state, metres): (&String, &f64)| Traversal {
-        mission: Some(mission.to_owned()),
+    let of_state = |(state, pace): (&String, &Pace)| Traversal {
+        // each is measured by itself
+        mission: Some(format!("{mission}, in {state}")),
         robot: Some(robot.to_owned()),
         state: Some(state.clone()),
-        distance: *metres,
-        measured: row.seconds,
+        distance: pace.metres,
+        measured: pace.seconds,
         ..Traversal::default()
     };
-    row.by_state.iter().map(of_state).collect()
+    row.paces.iter().map(of_state).collect()
 }

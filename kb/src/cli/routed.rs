@@ -27,6 +27,11 @@ pub fn run(args: &SimulateArgs, mut live: Live) -> Result<bool> {
     check(args)?;
     let setting = Setting::new(&live, args.robot.as_deref(), args.tell)?;
     let mut on = setting.missions(&mut live, args.tell);
+    if let Some(output) = &args.curve {
+        let drives = |far_m, seeds, first| on.tours(far_m, seeds, first);
+        super::curve::run(args, (&setting.name, output), drives)?;
+        return Ok(true);
+    }
     if let Some(robots) = args.robots {
         return together(args, usize::from(robots), &setting, &mut on);
     }
@@ -112,7 +117,7 @@ impl Setting {
 /// The missions that are drawn, or the one from START to GOAL.
 fn missions(args: &SimulateArgs, on: &Missions<'_>) -> Result<Vec<Mission>> {
     let (Some(start), Some(goal)) = (&args.start, &args.goal) else {
-        return on.drawn(args.missions as usize, args.seed);
+        return on.drawn(args.missions as usize, (args.seed, args.kidnap));
     };
     let heading = heading(args.heading)?;
     let ends = [point(on.live, start)?, point(on.live, goal)?];
@@ -139,12 +144,8 @@ pub(super) fn point(live: &Live, name: &str) -> Result<Point> {
 
 /// Refuses what is for maps of walls alone.
 fn check(args: &SimulateArgs) -> Result<()> {
-    let asked = [
-        ("--learn", args.learn.is_some()),
-        ("--learned", args.learned),
-        ("--drive", args.drive.is_some()),
-        ("--curve", args.curve.is_some()),
-    ];
+    let asked =
+        [("--learn", args.learn.is_some()), ("--learned", args.learned), ("--drive", args.drive.is_some())];
     let Some((flag, _)) = asked.into_iter().find(|(_, is_asked)| *is_asked) else { return Ok(()) };
     let message = format!(
         "{flag} is for maps with `[floor_plan]`; this site is cut into rooms, whose routes are driven"

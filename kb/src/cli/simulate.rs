@@ -24,6 +24,7 @@ use crate::navigation::judge::Judges;
 use crate::navigation::learning;
 use crate::navigation::missions::{Row, Stage, drawn, journalled, noted, refuse, run as run_all};
 use crate::navigation::reporting::{Reporting, Reports};
+use crate::navigation::tours::drive;
 use crate::site::base::Base;
 use crate::site::whole::{self, Whole};
 use crate::words::progress::Bar;
@@ -48,7 +49,9 @@ pub fn run(args: &SimulateArgs) -> Result<bool> {
     let floor = &of_robot(&live, args.robot.as_deref())?.1;
     let (world, rules) = (&floor.plan.name, rules_of(live.site()));
     if let Some(output) = &args.curve {
-        super::curve::run(args, output, floor, &Judges::new(&asked, &floor.told)?)?;
+        let judges = Judges::new(&asked, &floor.told)?;
+        let drives = |far_m, seeds, first| drive(floor, &judges, far_m, seeds, first);
+        super::curve::run(args, (world, output), drives)?;
         return Ok(true);
     }
     if let Some(start) = &args.learn {
@@ -230,13 +233,13 @@ fn learned(args: &SimulateArgs, world: &str, floor: &Floor) -> Result<(adit_db::
 /// The missions that are drawn, or the one from START to GOAL: places as the robot knows them, else as the world has them.
 fn missions(args: &SimulateArgs, floor: &Floor, known: &Floor) -> Result<Vec<Mission>> {
     let (Some(start), Some(goal)) = (&args.start, &args.goal) else {
-        return drawn(floor, args.missions as usize, args.seed);
+        return drawn(floor, args.missions as usize, (args.seed, args.kidnap));
     };
     let point = |text: &str| known.point(text).or_else(|_| floor.point(text));
     let (start, goal) = (point(start)?, point(goal)?);
     may_begin(floor, start)?;
     let heading = heading(args.heading)?;
-    let mission = |seed| Mission { start: Pose { at: start, heading }, goal, obstacles: Vec::new(), seed };
+    let mission = |seed| Mission::between(Pose { at: start, heading }, goal, seed);
     Ok((0..u64::from(args.missions)).map(|number| mission(args.seed.wrapping_add(number))).collect())
 }
 

@@ -188,6 +188,11 @@ impl Ground {
         self.shapes.all.iter().map(|shape| shape.radius_m).fold(f64::INFINITY, f64::min)
     }
 
+    /// The radius of the widest shape, metres.
+    pub fn widest_radius(&self) -> f64 {
+        self.shapes.all.iter().map(|shape| shape.radius_m).fold(0.0, f64::max)
+    }
+
     /// Whether a route ends at a point, as near as a robot has to come to it.
     pub fn leads_to(&self, answer: &Answer, goal: Point) -> bool {
         let tolerance = self.driving.navigation.goal_tolerance_m;

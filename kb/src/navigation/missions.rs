@@ -7,7 +7,8 @@ use adit_engine::Considered;
 use adit_planners::body::Body;
 use adit_planners::geometry::{Point, Segment};
 use adit_planners::navigation::{
-    Building, Drivable, Ending, Entry, Judge, Mission, Outcome, Outfit, Trip, WayFacts, draw, trip,
+    Building, Drivable, Ending, Entry, Judge, Mission, Outcome, Outfit, Pace, Trip, WayFacts, draw,
+    draw_kidnapping, trip,
 };
 use adit_planners::pose::Pose;
 use adit_planners::simulator::{Film, Simulator};
@@ -38,6 +39,9 @@ pub struct Row {
     /// Metres in each state, of a robot that changes its shape.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub by_state: BTreeMap<String, f64>,
+    /// How fast it was in each state, where it neither set off nor came to a stand.
+    #[serde(skip)]
+    pub paces: BTreeMap<String, Pace>,
     /// Changes of shape.
     pub changes: u32,
     /// The hardness of what the robot did, where routes lead by hardness.
@@ -68,7 +72,11 @@ pub struct Truth {
     pub possible: Option<bool>,
     /// Whether a disc with room to spare can.
     pub possible_with_room: Option<bool>,
-    /// Whether the ending is right: arrived where it must, no way where there is none, either in between.
+    /// Where the robot was carried off to, if it was; what is possible is so from there.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub kidnapped: Option<[f64; 2]>,
+    /// Whether the ending is right: arrived where it must, no way where there is none, either in between; of a robot that was
+    /// carried off, that it does not know where it is, too.
     pub right: Option<bool>,
     /// Of the shortest path that knows of the obstacles; where routes lead by hardness, of the best route that does.
     pub optimum: Option<f64>,
@@ -101,7 +109,8 @@ impl Judged {
         match outcome.trip.ending {
             Ending::Arrived => self.is_possible && outcome.miss_m <= radius,
             Ending::NoWay => !self.is_with_room,
-            Ending::Lost | Ending::Silent | Ending::OutOfPatience => false,
+            Ending::Lost => outcome.kidnapped.is_some(),
+            Ending::Silent | Ending::OutOfPatience => false,
         }
     }
 }
@@ -114,14 +123,17 @@ impl Row {
         judged: Option<Judged>,
         radius: f64,
     ) -> Self {
+        let is_whole = judged.filter(|_| outcome.kidnapped.is_none());
         let truth = Truth {
             seed: mission.seed,
             obstacles: mission.obstacles.len(),
             possible: judged.map(|judged| judged.is_possible),
             possible_with_room: judged.map(|judged| judged.is_with_room),
+            kidnapped: outcome.kidnapped.map(|(to, _)| [to.at.x, to.at.y]),
             right: judged.map(|judged| judged.is_right(outcome, radius)),
-            optimum: judged.and_then(|judged| judged.optimum_m),
-            least_cost: judged.and_then(|judged| judged.least_cost),
+            // what was driven before it was carried off led elsewhere
+            optimum: is_whole.and_then(|judged| judged.optimum_m),
+            least_cost: is_whole.and_then(|judged| judged.least_cost),
             collided: outcome.overlap_m > TOUCH_M,
             miss: outcome.miss_m,
             worst_error: outcome.worst_error_m,
@@ -141,6 +153,7 @@ impl Row {
             silence: None,
             length: trip.path_m(),
             by_state: BTreeMap::new(),
+            paces: BTreeMap::new(),
             changes: trip.changes.len() as u32,
             cost: None,
             replans: trip.replans,
@@ -176,14 +189,20 @@ impl Row {
 /// Deeper than that is a collision, metres.
 const TOUCH_M: f64 = 1e-6;
 
-pub fn drawn(floor: &Floor, missions: usize, seed: u64) -> Result<Vec<Mission>> {
+/// Missions drawn by chance; on each the robot is carried off once where `is_kidnapped`.
+pub fn drawn(floor: &Floor, missions: usize, (seed, is_kidnapped): (u64, bool)) -> Result<Vec<Mission>> {
+    let radius = floor.network.disc.radius;
     let of = |number: usize| {
         // Far apart, so that seeds that lie together give different missions.
         let seed = seed.wrapping_add((number as u64 + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15));
-        draw(&floor.plan, &floor.network, floor.network.disc.radius, seed).ok_or_else(|| {
+        let mut mission = draw(&floor.plan, &floor.network, radius, seed).ok_or_else(|| {
             let message = "the plan has no room for missions: start and goal need some metres between them";
             Error::said(Code::SimulateNoRoom, message, None)
-        })
+        })?;
+        if is_kidnapped {
+            mission.kidnapping = draw_kidnapping(&floor.plan, radius, &mission);
+        }
+        Ok(mission)
     };
     (0..missions).map(of).collect()
 }
@@ -286,7 +305,8 @@ fn judged(
         .map_err(Error::of(Code::SimulateImpossible))?;
     let milliseconds = before.elapsed().as_secs_f64() * 1e3;
     let radius = stage.truth.network.disc.radius;
-    let possible = mission.possible(&stage.truth.plan, radius).filter(|_| stage.is_open);
+    let from = outcome.kidnapped.map_or(mission.start, |(to, _)| to).at;
+    let possible = mission.possible(from, &stage.truth.plan, radius).filter(|_| stage.is_open);
     let judged = possible.map(|possible| Judged {
         is_possible: possible.is_for_radius,
         is_with_room: possible.is_with_room,

@@ -8,7 +8,9 @@ use adit_db::history::Author;
 use adit_engine::{Considered, RuleBase};
 use adit_planners::body::Body;
 use adit_planners::geometry::{Point, Rect, Segment, polygon};
-use adit_planners::navigation::{Entry, Met, Mission, ROOM_M, Router, Stretch, draw_along, trip};
+use adit_planners::navigation::{
+    Entry, Met, Mission, ROOM_M, Router, Stretch, Trip, draw_along, draw_kidnapping, trip,
+};
 use adit_planners::pose::Pose;
 use adit_planners::simulator::{Film, Obstacle};
 
@@ -379,9 +381,6 @@ fn named(met: &Met) -> String {
     format!("{:.3},{:.3}@{:.0}", met.at.x, met.at.y, met.heading.to_degrees())
 }
 
-/// What a robot did: metres in each shape, where it was in which, changes of shape.
-type Done<'o> = (&'o [f64], &'o [(Point, usize)], &'o [(usize, usize)]);
-
 /// All that happened, and for each decision the rule that spoke.
 type Happened = (Vec<Entry>, Vec<Option<Considered>>);
 
@@ -411,12 +410,19 @@ impl<'l> Missions<'l> {
 impl Missions<'_> {
     /// A mission between two points, without obstacles.
     pub fn between(&self, [start, goal]: [Point; 2], heading: f64, seed: u64) -> Mission {
-        Mission { start: Pose { at: start, heading }, goal, obstacles: Vec::new(), seed }
+        Mission::between(Pose { at: start, heading }, goal, seed)
     }
 
-    /// Missions drawn by chance, with up to five boxes that the robot does not know.
-    pub fn drawn(&self, count: usize, seed: u64) -> Result<Vec<Mission>> {
-        (0..count).map(|number| self.drawn_one(number, seed)).collect()
+    /// Missions drawn by chance, with up to five boxes that the robot does not know; on each it is carried off once where
+    /// `is_kidnapped`.
+    pub fn drawn(&self, count: usize, (seed, is_kidnapped): (u64, bool)) -> Result<Vec<Mission>> {
+        let one = |number| {
+            let mission = self.drawn_one(number, seed)?;
+            let to = || draw_kidnapping(&self.ground.plan, self.ground.widest_radius(), &mission);
+            let kidnapping = is_kidnapped.then(to).flatten();
+            Ok(Mission { kidnapping, ..mission })
+        };
+        (0..count).map(one).collect()
     }
 
     /// The mission of a number among those that are drawn by chance.
@@ -470,7 +476,6 @@ impl Missions<'_> {
         let before = Instant::now();
         let (ground, goal) = (self.ground, named_point(mission.goal));
         let shape = self.shape_of(mission)?;
-        let judged = self.judged(mission, &goal, shape)?;
         let (on, outfit) = ground.stage(shape);
         let (outcome, journal, said) = self.along(number, |site, judge, entries| {
             mission
@@ -478,9 +483,10 @@ impl Missions<'_> {
                 .map_err(Error::of(Code::SimulateImpossible))
         })?;
         let radius = ground.shapes.all[outcome.trip.shape].radius_m;
+        let (from, shape) = outcome.kidnapped.unwrap_or((mission.start, shape));
+        let judged = self.judged(mission, (from.at, &goal), shape)?;
         let row = Row::new((number, mission), &outcome, Some(judged), radius);
-        let row =
-            self.weighed(row, (&outcome.trip.metres, &outcome.trip.track, &outcome.trip.changes), before);
+        let row = self.weighed(row, &outcome.trip, before);
         Ok(((row, journal.0, journal.1), said))
     }
 
@@ -504,7 +510,7 @@ impl Missions<'_> {
         })?;
         let row = Row::of_trip(number, [start.at, goal], &trip);
         let row = Row { silence: body.silence().map(str::to_owned), ..row };
-        let row = self.weighed(row, (&trip.metres, &trip.track, &trip.changes), before);
+        let row = self.weighed(row, &trip, before);
         Ok(((row, journal.0, journal.1), said))
     }
 
@@ -512,7 +518,7 @@ impl Missions<'_> {
     ///
     /// # Returns
     /// Beside what came of it the journal, and what the site was told, and what followed, in sentences.
-    fn along<O>(
+    pub(super) fn along<O>(
         &mut self,
         number: usize,
         go: impl FnOnce(&mut Site<'_>, &mut Noting<'_, RuleJudge>, &mut Vec<Entry>) -> Result<O>,
@@ -539,12 +545,13 @@ impl Missions<'_> {
     }
 
     /// A row with what the robot did in each state, and how hard that was.
-    pub(super) fn weighed(&self, row: Row, (metres, track, changes): Done<'_>, before: Instant) -> Row {
+    pub(super) fn weighed(&self, row: Row, trip: &Trip, before: Instant) -> Row {
         let milliseconds = before.elapsed().as_secs_f64() * 1e3;
-        let states = self.ground.states.iter().cloned().zip(metres.iter().copied());
+        let states = || self.ground.states.iter().cloned();
         Row {
-            by_state: states.filter(|(_, metres)| *metres > 0.0).collect(),
-            cost: Some(self.ground.hardness(&self.live.fork(), track, changes)),
+            by_state: states().zip(trip.metres.iter().copied()).filter(|(_, metres)| *metres > 0.0).collect(),
+            paces: states().zip(trip.paces.iter().copied()).filter(|(_, pace)| pace.seconds > 0.0).collect(),
+            cost: Some(self.ground.hardness(&self.live.fork(), &trip.track, &trip.changes)),
             milliseconds,
             ..row
         }
@@ -561,7 +568,7 @@ impl Missions<'_> {
     }
 
     /// What is possible for who knows of all obstacles.
-    fn judged(&self, mission: &Mission, goal: &str, shape: usize) -> Result<Judged> {
+    fn judged(&self, mission: &Mission, ends: (Point, &str), shape: usize) -> Result<Judged> {
         let errand = Errand { start_state: Some(self.ground.states[shape].clone()), ..Errand::default() };
         let boxes = (1..).zip(&mission.obstacles);
         let boxes = boxes.map(|(number, obstacle): (usize, _)| {
@@ -569,7 +576,6 @@ impl Missions<'_> {
         });
         let mut edits: Vec<Edit> = boxes.collect();
         let best = |edits: &[Edit]| -> Result<Option<Answer>> {
-            let ends = (mission.start.at, goal);
             let answer = where_it_fits(asked(self.live.fork(), edits, ends, &errand, &self.ground.robot))?;
             Ok(answer.filter(|answer| answer.cost.is_some() && self.ground.leads_to(answer, mission.goal)))
         };

@@ -177,10 +177,9 @@ impl<'l> Missions<'l> {
         let row = Row::new((errand.on.mission(), &errand.mission), &outcome, None, radius);
         let is_right = (ending == Ending::Arrived).then_some(outcome.miss_m <= radius);
         let truth = row.truth.map(|truth| Truth { right: is_right, obstacles: 0, ..truth });
-        let trip = &outcome.trip;
-        let start = trip.track.first().map_or(row.start, |(at, _)| [at.x, at.y]);
+        let start = outcome.trip.track.first().map_or(row.start, |(at, _)| [at.x, at.y]);
         let row = Row { truth, start, robot: Some(errand.on.who.clone()), ..row };
-        self.weighed(row, (&trip.metres, &trip.track, &trip.changes), errand.since)
+        self.weighed(row, &outcome.trip, errand.since)
     }
 }
 

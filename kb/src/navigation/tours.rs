@@ -1,12 +1,14 @@
 //! How well a robot knows where it is: long drives with the walls known, and with a model that is built on the way.
 
-use adit_planners::navigation::{Building, Tour, Wrong, stops};
+use adit_planners::geometry::Point;
+use adit_planners::navigation::{Building, Drivable, Mission, Tour, Wrong, stops};
 use adit_planners::pose::Pose;
 use rayon::prelude::*;
 use serde::Serialize;
 
 use super::floor::Floor;
 use super::judge::{Judges, RuleJudge};
+use super::routed::Missions;
 use crate::draw::{Curve, CurvePanel, Scale, render_curves};
 use crate::error::{Code, Error, Result};
 
@@ -59,12 +61,33 @@ pub fn drive(floor: &Floor, judges: &Judges, far_m: f64, seeds: u64, first: u64)
         let outfit = floor.driving.outfit(radius);
         let of_robot = if is_known { &known } else { &unknown };
         let drive = |judge: &mut RuleJudge| {
-            tour.run(&known.walls, of_robot, &outfit, judge).map_err(Error::of(Code::SimulateImpossible))
+            let on = Drivable::of(&known.walls, of_robot);
+            tour.run(&on, &outfit, None, judge).map_err(Error::of(Code::SimulateImpossible))
         };
         let wrong = judges.ask(drive)?;
         Ok(Driven::new(seed, is_known, wrong))
     };
     drives.par_iter().map(one).collect()
+}
+
+impl Missions<'_> {
+    /// Drives so far with each of so many seeds, by the site's routes, in the robot's shapes.
+    pub fn tours(&mut self, far_m: f64, seeds: u64, first: u64) -> Result<Vec<Driven>> {
+        (0..seeds).map(|n| self.tour(far_m, first.wrapping_add(n))).collect()
+    }
+
+    fn tour(&mut self, far_m: f64, seed: u64) -> Result<Driven> {
+        let drawn = self.drawn(STOPS, (seed, false))?;
+        let start = drawn[0].start;
+        let stops: Vec<Point> = drawn.iter().map(|mission| mission.goal).collect();
+        let shape = self.shape_of(&Mission::between(start, stops[0], seed))?;
+        let (on, outfit) = self.ground.stage(shape);
+        let tour = Tour { start, stops, far_m, seed };
+        let (wrong, _, _) = self.along(1, |site, judge, _| {
+            tour.run(&on, &outfit, Some(site), judge).map_err(Error::of(Code::SimulateImpossible))
+        })?;
+        Ok(Driven::new(seed, true, wrong))
+    }
 }
 
 impl Driven {
@@ -130,6 +153,10 @@ pub fn draw(world: &str, drives: &[Driven]) -> String {
             ),
         ]
     };
-    let rows = [row((true, "walls known")), row((false, "model built on the way"))];
+    let rows: Vec<Vec<CurvePanel>> = [(true, "walls known"), (false, "model built on the way")]
+        .into_iter()
+        .filter(|(is_known, _)| drives.iter().any(|driven| driven.is_known == *is_known))
+        .map(row)
+        .collect();
     render_curves(&format!("{world}: errors of the estimated pose, the median of each metre"), &rows)
 }

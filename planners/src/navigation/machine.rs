@@ -6,7 +6,7 @@ use super::known::Building;
 use super::mission::{Entry, Outfit};
 use super::router::Router;
 use super::run::run;
-use super::trip::Trip;
+use super::trip::{Step, Trip};
 use crate::body::Body;
 use crate::geometry::Point;
 use crate::pose::Pose;
@@ -28,11 +28,16 @@ pub fn trip<B: Body>(
     let mut navigator =
         Navigator::of_shapes((buildings, shape), outfit.model, outfit.navigation, outfit.estimate(start));
     let mut trip = Trip::begun(start.at, shape, buildings.len());
-    let mut before = navigator.odometry();
+    let (mut before, mut since_s) = (navigator.odometry(), None);
     let ending = run(body, &mut navigator, goal, router, judge, |_, navigator, events| {
-        let counted = navigator.odometry();
-        trip.note(before.at.distance(counted.at), (navigator.estimate().pose.at, navigator.shape()), &events);
-        before = counted;
+        let (counted, now_s) = (navigator.odometry(), navigator.time_s());
+        let step = Step {
+            metres: before.at.distance(counted.at),
+            seconds: now_s - since_s.unwrap_or(now_s),
+            is_under_way: navigator.is_busy() && since_s.is_some(),
+        };
+        trip.note(&step, (navigator.estimate().pose.at, navigator.shape()), &events);
+        (before, since_s) = (counted, Some(now_s));
         for event in events {
             journal(Entry { event, truth: None });
         }

@@ -4,7 +4,7 @@ use super::judge::{Action, Judge, StateDecision};
 use super::known::Building;
 use super::router::Router;
 use super::run::Run;
-use super::trip::Trip;
+use super::trip::{Step, Trip};
 use super::{Ending, Event, Happening, Navigator, Settings};
 use crate::body::Body;
 use crate::floor_plan::{Disc, Drawn, FloorPlan, Network, Rule};
@@ -27,6 +27,16 @@ pub struct Mission {
     pub obstacles: Vec<Obstacle>,
     /// Of the errors of wheels and sonar.
     pub seed: u64,
+    /// Whether somebody carries the robot off on its way, of which it is told nothing.
+    pub kidnapping: Option<Kidnapping>,
+}
+
+/// A robot is carried off.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Kidnapping {
+    /// When it has gone so far, metres.
+    pub after_m: f64,
+    pub to: Pose,
 }
 
 /// How a robot and its navigator are set.
@@ -123,6 +133,8 @@ pub struct Outcome {
     pub overlap_m: f64,
     /// Metres from where the robot really was at the end to the goal.
     pub miss_m: f64,
+    /// Where it was carried off to, in which shape, if it was.
+    pub kidnapped: Option<(Pose, usize)>,
     /// The largest error of the estimated position, metres.
     pub worst_error_m: f64,
     /// The largest error of the estimated heading, radians.
@@ -144,6 +156,11 @@ pub struct Possible {
 pub const ROOM_M: f64 = 0.10;
 
 impl Mission {
+    /// A mission with nothing in the way.
+    pub const fn between(start: Pose, goal: Point, seed: u64) -> Self {
+        Self { start, goal, obstacles: Vec::new(), seed, kidnapping: None }
+    }
+
     /// The robot that would run the mission, where it begins.
     pub fn body(&self, on: &Drivable<'_>, outfit: &Outfit) -> Result<Simulator, SimulationError> {
         let body = Simulator::new(on.walls, self.obstacles.clone(), outfit.robot, self.start, self.seed)?;
@@ -175,6 +192,8 @@ impl Mission {
             navigator,
             run,
             goal: self.goal,
+            by_route,
+            kidnapping: self.kidnapping,
             begun_s: 0.0,
             before: Before::default(),
             outcome,
@@ -216,16 +235,19 @@ impl Mission {
 
     /// Whether the mission can be done, by an exact search that knows of every obstacle where it comes to rest.
     ///
+    /// # Arguments
+    /// `from` is where the robot begins, or where it was carried off to.
+    ///
     /// # Returns
     /// `None` where obstacles and walls together make no floor plan.
-    pub fn possible(&self, plan: &FloorPlan, radius_m: f64) -> Option<Possible> {
+    pub fn possible(&self, from: Point, plan: &FloorPlan, radius_m: f64) -> Option<Possible> {
         let mut solids = plan.solids().to_vec();
         solids.extend(self.obstacles.iter().map(Obstacle::at_rest));
         let drawn = Drawn { name: String::new(), walls: plan.walls().to_vec(), solids, places: Vec::new() };
         let plan = FloorPlan::new(drawn).ok()?;
         let path = |radius: f64, margin: f64| {
             let network = Network::new(&plan, Disc { radius, margin }).ok()?;
-            network.path(self.start.at, self.goal, Rule::Tight, |way| Some(way.length)).ok()
+            network.path(from, self.goal, Rule::Tight, |way| Some(way.length)).ok()
         };
         let optimum_m = path(radius_m, 0.0).map(|path| path.length);
         let is_with_room = path(radius_m, ROOM_M).is_some();
@@ -240,6 +262,9 @@ pub struct Underway<'b> {
     navigator: Navigator<'b>,
     run: Run,
     goal: Point,
+    /// Whether somebody else than the navigator finds the ways.
+    by_route: bool,
+    kidnapping: Option<Kidnapping>,
     /// When it set out, by its clock, seconds.
     begun_s: f64,
     before: Before,
@@ -277,12 +302,27 @@ impl<'b> Underway<'b> {
         router: Option<&mut dyn Router>,
         judge: &mut impl Judge,
     ) -> (Option<Ending>, Vec<Entry>) {
-        let before = self.body.pose().at;
+        self.kidnap();
+        let (before, since_s) = (self.body.pose().at, self.body.time_s());
         let (ending, events) = self.run.step(&mut self.body, &mut self.navigator, router, judge);
         let truth = self.body.pose();
-        self.outcome.trip.note(before.distance(truth.at), (truth.at, self.body.shape()), &events);
+        let step = Step {
+            metres: before.distance(truth.at),
+            seconds: self.body.time_s() - since_s,
+            is_under_way: self.navigator.is_busy(),
+        };
+        self.outcome.trip.note(&step, (truth.at, self.body.shape()), &events);
         self.outcome.note(&self.body, &self.navigator);
         (ending, events.into_iter().map(|event| Entry { event, truth: Some(truth) }).collect())
+    }
+
+    /// Carries the robot off when it is time; where something is in the way there, as soon as that is gone.
+    fn kidnap(&mut self) {
+        let Some(Kidnapping { after_m, to }) = self.kidnapping else { return };
+        if self.outcome.trip.path_m() >= after_m && self.body.put(to).is_ok() {
+            self.outcome.kidnapped = Some((to, self.body.shape()));
+            self.kidnapping = None;
+        }
     }
 
     /// Lets time pass for a robot that stands, without an errand, for one reading.
@@ -306,7 +346,7 @@ impl<'b> Underway<'b> {
     /// Sets out for another goal from where it is.
     pub fn go_on(&mut self, goal: Point, judge: &mut impl Judge) {
         let shapes = self.outcome.trip.metres.len();
-        self.run = Run::begin(&mut self.navigator, goal, true, judge);
+        self.run = Run::begin(&mut self.navigator, goal, self.by_route, judge);
         (self.goal, self.begun_s) = (goal, self.navigator.time_s());
         let (touches, replans) = (self.body.touches_by_robot(), self.navigator.replans());
         (self.before, self.outcome) = (Before { touches, replans }, Outcome::begun(&self.body, shapes));
@@ -320,6 +360,7 @@ impl Outcome {
             trip: Trip::begun(body.pose().at, body.shape(), shapes),
             overlap_m: f64::NEG_INFINITY,
             miss_m: 0.0,
+            kidnapped: None,
             worst_error_m: 0.0,
             worst_heading_error: 0.0,
         }

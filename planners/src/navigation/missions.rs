@@ -1,6 +1,6 @@
 //! Missions drawn by chance, the same ones from the same seed.
 
-use super::mission::{Mission, ROOM_M};
+use super::mission::{Kidnapping, Mission, ROOM_M};
 use crate::floor_plan::clear::wall_distance;
 use crate::floor_plan::{FloorPlan, Network, Rule};
 use crate::geometry::polygon::{is_in_convex, sides};
@@ -72,7 +72,24 @@ pub fn draw_along(
         };
         obstacles.extend(found.into_iter().find(stands_off));
     }
-    Some(Mission { start: Pose { at: start, heading }, goal, obstacles, seed: random.seed() })
+    let mission = Mission::between(Pose { at: start, heading }, goal, random.seed());
+    Some(Mission { obstacles, ..mission })
+}
+
+/// Draws when and where to a robot is carried off on a mission: somewhere with room around it without the mission's boxes.
+///
+/// # Returns
+/// `None` where the plan has no room for it.
+pub fn draw_kidnapping(plan: &FloorPlan, radius_m: f64, mission: &Mission) -> Option<Kidnapping> {
+    let mut random = Random::new(mission.seed);
+    let barriers = plan.barriers();
+    let room = radius_m + ROOM_M + 0.05;
+    let is_off =
+        |at: &Point| mission.obstacles.iter().all(|obstacle| distance_to(&obstacle.at_rest(), *at) >= room);
+    let at = (0..TRIES).find_map(|_| spot(plan, &barriers, room, &mut random).filter(is_off))?;
+    let heading = random.between(-3.0, 3.0);
+    let after_m = random.share() * mission.start.at.distance(mission.goal);
+    Some(Kidnapping { after_m, to: Pose { at, heading } })
 }
 
 /// Draws points with room around them, each with a way from the one before.

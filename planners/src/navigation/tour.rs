@@ -1,13 +1,12 @@
 //! A long drive through a building from stop to stop, with the truth beside what the robot thinks.
 
+use super::Ending;
 use super::judge::Judge;
-use super::known::Building;
-use super::mission::Outfit;
-use super::{Ending, Navigator};
-use crate::geometry::{Point, Segment};
-use crate::local_model::Estimate;
+use super::mission::{Drivable, Mission, Outfit};
+use super::router::Router;
+use crate::geometry::Point;
 use crate::pose::{Pose, wrapped};
-use crate::simulator::{SimulationError, Simulator};
+use crate::simulator::SimulationError;
 
 /// Where a robot goes, and what it begins with.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,43 +39,38 @@ impl Tour {
     /// Drives.
     ///
     /// # Arguments
-    /// `walls` are those of the building, `known` is what the robot knows of it: surfaces that are not known are built on
-    /// the way.
+    /// Surfaces of the walls that `on` does not let the robot know are built on the way. `router` finds the ways, where
+    /// somebody else than the navigator does.
     ///
     /// # Returns
-    /// Each moment at which the sonar was read. The drive is shorter than it should be where none of the stops can be
+    /// Each moment at which the sensors were read. The drive is shorter than it should be where none of the stops can be
     /// reached any more.
     pub fn run(
         &self,
-        walls: &[Segment],
-        known: &Building,
+        on: &Drivable<'_>,
         outfit: &Outfit,
+        mut router: Option<&mut dyn Router>,
         judge: &mut impl Judge,
     ) -> Result<Vec<Wrong>, SimulationError> {
-        let mut body = Simulator::new(walls, Vec::new(), outfit.robot, self.start, self.seed)?;
-        let start = Estimate::new(self.start, 0.01, 0.5_f64.to_radians());
-        let mut navigator = Navigator::new(known, outfit.model, outfit.navigation, start);
+        let mut stops = self.stops.iter().copied().cycle();
+        let first = Mission::between(self.start, stops.next().unwrap_or(self.start.at), self.seed);
+        let mut underway = first.begin(on, outfit, router.is_some(), judge)?;
         let mut all: Vec<Wrong> = Vec::new();
         let (mut driven_m, mut in_vain) = (0.0, 0);
-        for stop in self.stops.iter().cycle() {
-            navigator.go(*stop, judge);
-            let ending = loop {
-                let before = body.pose();
-                let ending = navigator.step(&mut body, judge);
-                navigator.take_events();
-                driven_m += before.at.distance(body.pose().at);
-                let reckoned = self.start.then(&body.odometry());
-                all.push(Wrong::new(driven_m, &body.pose(), &navigator.estimate().pose, &reckoned));
-                if driven_m >= self.far_m {
-                    return Ok(all);
-                }
-                if let Some(ending) = ending {
-                    break ending;
-                }
-            };
-            in_vain = if ending == Ending::Arrived { 0 } else { in_vain + 1 };
-            if in_vain > self.stops.len() {
+        while in_vain <= self.stops.len() {
+            let before = underway.body().pose();
+            let router = router.as_mut().map(|router| &mut **router as &mut dyn Router);
+            let (ending, _) = underway.step(router, judge);
+            let body = underway.body();
+            driven_m += before.at.distance(body.pose().at);
+            let reckoned = self.start.then(&body.odometry());
+            all.push(Wrong::new(driven_m, &body.pose(), &underway.navigator().estimate().pose, &reckoned));
+            if driven_m >= self.far_m {
                 break;
+            }
+            if let Some(ending) = ending {
+                in_vain = if ending == Ending::Arrived { 0 } else { in_vain + 1 };
+                underway.go_on(stops.next().unwrap_or(self.start.at), judge);
             }
         }
         Ok(all)

@@ -11,6 +11,8 @@ pub struct Trip {
     pub shape: usize,
     /// Metres that it went, by shape; by the count of its wheels where nobody knows better.
     pub metres: Vec<f64>,
+    /// Of these, those that it went without setting off or coming to a stand, by shape.
+    pub paces: Vec<Pace>,
     /// Changes of shape, in order: from which into which.
     pub changes: Vec<(usize, usize)>,
     /// Times that a way was closed and another one looked for.
@@ -24,6 +26,22 @@ pub struct Trip {
     pub track: Vec<(Point, usize)>,
 }
 
+/// How fast a robot went.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Pace {
+    pub metres: f64,
+    pub seconds: f64,
+}
+
+/// From one reading to the next.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Step {
+    pub metres: f64,
+    pub seconds: f64,
+    /// Whether the command was still being carried out at its end.
+    pub is_under_way: bool,
+}
+
 /// The track has a point each so many metres.
 const TRACK_M: f64 = 0.25;
 
@@ -34,6 +52,7 @@ impl Trip {
             ending: Ending::OutOfPatience,
             shape,
             metres: vec![0.0; shapes],
+            paces: vec![Pace::default(); shapes],
             changes: Vec::new(),
             replans: 0,
             detours: 0,
@@ -43,9 +62,13 @@ impl Trip {
         }
     }
 
-    /// Takes note of a step of so many metres to where the robot is now, in the shape in which it is now, and of what happened.
-    pub fn note(&mut self, by_m: f64, (at, now): (Point, usize), events: &[Event]) {
-        self.metres[self.shape] += by_m;
+    /// Takes note of a step to where the robot is now, in the shape in which it is now, and of what happened.
+    pub(super) fn note(&mut self, step: &Step, (at, now): (Point, usize), events: &[Event]) {
+        self.metres[self.shape] += step.metres;
+        if step.is_under_way && step.metres > 0.0 {
+            let pace = &mut self.paces[self.shape];
+            *pace = Pace { metres: pace.metres + step.metres, seconds: pace.seconds + step.seconds };
+        }
         let is_changed = now != self.shape;
         if is_changed {
             self.changes.push((self.shape, now));

@@ -23,7 +23,9 @@ fn what_is_possible_arrives_what_is_not_is_said_and_nothing_is_run_into() {
         let outfit = Outfit::default();
         for number in 0..MISSIONS {
             let mission = draw(&plan, &building.network, outfit.robot.radius_m, number).unwrap();
-            let Some(possible) = mission.possible(&plan, outfit.robot.radius_m) else { continue };
+            let Some(possible) = mission.possible(mission.start.at, &plan, outfit.robot.radius_m) else {
+                continue;
+            };
             let outcome = mission
                 .run(&Drivable::of(&building.walls, &building), &outfit, None, &mut Table, |_| {}, None)
                 .unwrap();

@@ -68,7 +68,7 @@ pub fn exact() -> Outfit {
 
 pub fn mission(start: [f64; 2], goal: [f64; 2], obstacles: Vec<Obstacle>) -> Mission {
     let start = Pose { at: Point::new(start[0], start[1]), heading: 0.0 };
-    Mission { start, goal: Point::new(goal[0], goal[1]), obstacles, seed: 1 }
+    Mission { obstacles, ..Mission::between(start, Point::new(goal[0], goal[1]), 1) }
 }
 
 pub fn stands(x: f64, y: f64, dx: f64, dy: f64) -> Obstacle {

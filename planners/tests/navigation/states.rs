@@ -26,7 +26,7 @@ fn a_free_way_is_gone_straight_by_the_states_of_figure_5() {
 #[test]
 fn a_way_through_a_door_is_near_the_shortest() {
     let mission = mission([1.0, 3.0], [9.0, 3.0], Vec::new());
-    let optimum = mission.possible(&two_rooms(), 0.25).unwrap().optimum_m.unwrap();
+    let optimum = mission.possible(mission.start.at, &two_rooms(), 0.25).unwrap().optimum_m.unwrap();
     let run = run(&mission);
     assert!(run.has_arrived(), "{}", run.told());
     assert!(run.outcome.trip.path_m() < 1.03 * optimum, "{} for {optimum}", run.outcome.trip.path_m());
