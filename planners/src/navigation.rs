@@ -43,4 +43,4 @@ pub use settings::Settings;
 pub use stretch::Stretch;
 pub use together::{Door, things_about};
 pub use tour::{Tour, Wrong};
-pub use trip::{Pace, Trip};
+pub use trip::{Advance, Pace, Trip};

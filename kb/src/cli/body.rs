@@ -5,7 +5,7 @@ use std::io::{self, BufRead, BufReader, Write, stdin, stdout};
 use std::net::TcpListener;
 use std::path::PathBuf;
 
-use adit_planners::navigation::{Mission, Trip};
+use adit_planners::navigation::{Advance, Mission, Trip};
 use adit_planners::pose::Pose;
 use adit_planners::simulator::Simulator;
 use clap::Args;
@@ -141,7 +141,8 @@ impl Robot<'_> {
         let mut deepest_m = f64::NEG_INFINITY;
         let served = host.serve(&mut input, &mut output, |body| {
             let at = body.pose().at;
-            trip.note(before.distance(at), (at, body.shape()), &[]);
+            let advance = Advance { metres: before.distance(at), seconds: 0.0, is_under_way: false };
+            trip.note(&advance, (at, body.shape()), &[]);
             before = at;
             deepest_m = deepest_m.max(body.overlap_m());
         });

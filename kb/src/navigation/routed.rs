@@ -432,10 +432,12 @@ impl Missions<'_> {
         let seed = seed.wrapping_add((number as u64 + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15));
         let mut trouble = None;
         let way = |start: Point, goal: Point| {
+            // routes may begin and end a little beside points at which the robot does not fit; missions do not
+            ground.fitting(&self.live.fork(), start).ok()?;
             let ends = (start, &*named_point(goal));
             match asked(self.live.fork(), &[], ends, &Errand::default(), &ground.robot) {
                 Ok(answer) => {
-                    let way = ground.stretches(&answer)?;
+                    let way = ground.stretches(&answer).filter(|_| ground.leads_to(&answer, goal))?;
                     Some(way.into_iter().flat_map(|stretch| stretch.points).collect())
                 }
                 Err(error) => {

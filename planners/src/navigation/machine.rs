@@ -6,7 +6,7 @@ use super::known::Building;
 use super::mission::{Entry, Outfit};
 use super::router::Router;
 use super::run::run;
-use super::trip::{Step, Trip};
+use super::trip::{Advance, Trip};
 use crate::body::Body;
 use crate::geometry::Point;
 use crate::pose::Pose;
@@ -31,7 +31,7 @@ pub fn trip<B: Body>(
     let (mut before, mut since_s) = (navigator.odometry(), None);
     let ending = run(body, &mut navigator, goal, router, judge, |_, navigator, events| {
         let (counted, now_s) = (navigator.odometry(), navigator.time_s());
-        let step = Step {
+        let step = Advance {
             metres: before.at.distance(counted.at),
             seconds: now_s - since_s.unwrap_or(now_s),
             is_under_way: navigator.is_busy() && since_s.is_some(),

@@ -4,7 +4,7 @@ use super::judge::{Action, Judge, StateDecision};
 use super::known::Building;
 use super::router::Router;
 use super::run::Run;
-use super::trip::{Step, Trip};
+use super::trip::{Advance, Trip};
 use super::{Ending, Event, Happening, Navigator, Settings};
 use crate::body::Body;
 use crate::floor_plan::{Disc, Drawn, FloorPlan, Network, Rule};
@@ -306,7 +306,7 @@ impl<'b> Underway<'b> {
         let (before, since_s) = (self.body.pose().at, self.body.time_s());
         let (ending, events) = self.run.step(&mut self.body, &mut self.navigator, router, judge);
         let truth = self.body.pose();
-        let step = Step {
+        let step = Advance {
             metres: before.distance(truth.at),
             seconds: self.body.time_s() - since_s,
             is_under_way: self.navigator.is_busy(),

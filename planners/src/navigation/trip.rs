@@ -35,7 +35,7 @@ pub struct Pace {
 
 /// From one reading to the next.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Step {
+pub struct Advance {
     pub metres: f64,
     pub seconds: f64,
     /// Whether the command was still being carried out at its end.
@@ -63,7 +63,7 @@ impl Trip {
     }
 
     /// Takes note of a step to where the robot is now, in the shape in which it is now, and of what happened.
-    pub(super) fn note(&mut self, step: &Step, (at, now): (Point, usize), events: &[Event]) {
+    pub fn note(&mut self, step: &Advance, (at, now): (Point, usize), events: &[Event]) {
         self.metres[self.shape] += step.metres;
         if step.is_under_way && step.metres > 0.0 {
             let pace = &mut self.paces[self.shape];
