@@ -1,7 +1,7 @@
 //! Connected sequences: ends of segments that meet.
 
 use super::{ModelSegment, SegmentId, Settings};
-use crate::geometry::Point;
+use crate::geometry::{Point, Segment};
 
 /// Joins the ends of segments that changed to the nearest ends of others, and lets them meet in a corner where both may
 /// be moved. `near` are the places of segments that may be joined to, in ascending order.
@@ -77,9 +77,14 @@ fn meet(
     let corner = p.a + along * far;
     for (segment, end) in [(one, end), (other, side)] {
         let is_close = ends(&segments[segment])[end].distance(corner) <= settings.join_m;
-        if !segments[segment].is_anchored && is_close {
-            let line = &mut segments[segment].line;
-            *(if end == 0 { &mut line.a } else { &mut line.b }) = corner;
+        if segments[segment].is_anchored || !is_close {
+            continue;
+        }
+        let line = segments[segment].line;
+        let met = if end == 0 { Segment::new(corner, line.b) } else { Segment::new(line.a, corner) };
+        // both ends of a short one may be near corners: it would be no line any more, and match whatever is seen
+        if (met.b - met.a).dot(line.direction()) >= settings.shortest_m.min(line.length()) {
+            segments[segment].line = met;
         }
     }
 }

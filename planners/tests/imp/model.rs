@@ -361,3 +361,25 @@ fn nothing_seen_changes_nothing_and_odd_readings_do_no_harm() {
     world.scan(table);
     assert!(!world.model.segments().is_empty());
 }
+
+#[test]
+fn a_side_between_two_corners_stays_a_side() {
+    // of the thin end of a wall both ends are near the corners that it makes with what stands beside it
+    let slant = [[4.0, 2.0, 4.16, 2.1], [4.0, 2.0, 4.0, 0.0], [4.16, 2.1, 4.35, 0.0]].map(segment);
+    let walls = [&walls()[..], &slant].concat();
+    for seed in 0..20 {
+        let settings = simulator::Settings { range_noise: 0.01, ..simulator::Settings::default() };
+        let robot = Simulator::new(&walls, Vec::new(), settings, Pose::new(2.0, 2.5, 0.0), seed).unwrap();
+        let mut world = World { robot, model: LocalModel::new(Settings::default(), World::here()) };
+        for _ in 0..6 {
+            world.scan(table);
+            for known in world.model.segments() {
+                let nearest =
+                    |p: Point| walls.iter().map(|wall| wall.distance(p)).fold(f64::INFINITY, f64::min);
+                assert!(known.line.length() >= 0.1, "seed {seed}: {known:?}");
+                let off = [0.25, 0.5, 0.75].map(|share| nearest(known.line.a.lerp(known.line.b, share)));
+                assert!(off.iter().all(|off| *off < 0.3), "seed {seed}: {known:?} lies where nothing is");
+            }
+        }
+    }
+}
