@@ -131,14 +131,21 @@ impl Near {
 
     /// The same path with fewer points, as far as that leads no nearer to anything than the path itself, or than `room`.
     fn thinned(&self, points: &[Point], room: f64) -> Vec<Point> {
-        let legs: Vec<f64> = points.windows(2).map(|leg| self.gap(leg[0], leg[1])).collect();
         let mut kept: Vec<Point> = points.first().copied().into_iter().collect();
         let mut at = 0;
         while at + 1 < points.len() {
-            let (mut next, mut least) = (at + 1, legs[at]);
-            for far in at + 2..points.len() {
-                least = least.min(legs[far - 1]);
-                if self.gap(points[at], points[far]) < room.min(least) - ROUNDING_M {
+            // of each thing by itself: how near one leads to one of them says nothing of the others
+            let mut least = vec![room; self.barriers.len()];
+            let mut next = at + 1;
+            for far in at + 1..points.len() {
+                let leg = Segment::new(points[far - 1], points[far]);
+                let straight = Segment::new(points[at], points[far]);
+                let mut all = self.barriers.iter().zip(&mut least);
+                let leads_nearer = all.any(|(barrier, least)| {
+                    *least = least.min(leg.gap(barrier) - self.radius_m);
+                    straight.gap(barrier) - self.radius_m < *least - ROUNDING_M
+                });
+                if leads_nearer {
                     break;
                 }
                 next = far;
@@ -225,6 +232,9 @@ mod tests {
             way[0].points.len() - 2
         };
         assert_eq!((bends(&[]), bends(&met)), (0, 1));
+        // whatever stands in the way elsewhere
+        let elsewhere = line(7.0, 0.5, 7.0, 0.9);
+        assert_eq!(bends(&[met[0], elsewhere]), 1);
     }
 
     #[test]
