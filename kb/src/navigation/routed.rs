@@ -454,7 +454,13 @@ impl Missions<'_> {
         };
         match (mission, trouble) {
             (Some(mut mission), _) => {
-                mission.obstacles.retain(|thing| !is_on_place(thing));
+                // nor where the robot stands, in the shape in which it begins
+                let radius = ground.shapes.all[self.shape_of(&mission)?].radius_m + HAIR_M;
+                let start = mission.start.at;
+                let is_on_robot = |thing: &Obstacle| {
+                    polygon::sides(&thing.corners).any(|side| side.distance(start) <= radius)
+                };
+                mission.obstacles.retain(|thing| !is_on_place(thing) && !is_on_robot(thing));
                 Ok(mission)
             }
             (None, Some(trouble)) => Err(trouble),

@@ -13,7 +13,7 @@ use super::sequences;
 use super::{LocalModel, ObjectId, SegmentFacts, SegmentId, Source, Transition};
 use crate::body::Reading;
 use crate::pose::Pose;
-use looking::Look;
+use looking::{Explained, Look};
 
 /// What one scan changed.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -65,8 +65,8 @@ impl LocalModel {
             }
         }
         let placed = shift(&beams, &self.estimate.pose);
-        let (mut looks, firsts, mut is_explained) = self.look(&placed, &near);
-        observations += self.correct_by_readings(&placed, &firsts, &seen, &is_explained);
+        let (mut looks, firsts, mut explained) = self.look(&placed, &near);
+        observations += self.correct_by_readings(&placed, &firsts, &seen, &explained);
         let moved = Shift::new(&before.pose, &self.estimate.pose);
         let seen: Vec<Seen> = seen.iter().map(|one| one.moved(&moved)).collect();
         let placed = shift(&beams, &self.estimate.pose);
@@ -77,9 +77,9 @@ impl LocalModel {
             seen: seen.len(),
             ..Update::default()
         };
-        let (new, changed) = self.integrate(&seen, &near, &mut looks, &mut is_explained, &mut update);
+        let (new, changed) = self.integrate(&seen, &near, &mut looks, &mut explained, &mut update);
         let groups: Vec<Vec<Echo>> = groups.iter().map(|group| moved_echoes(group, &placed)).collect();
-        let objects = self.follow(&groups, &placed, &is_explained, &looks, time_s);
+        let objects = self.follow(&groups, &placed, &explained, &looks, time_s);
         let changed: Vec<SegmentId> = changed.into_iter().map(|place| self.segments[place].id).collect();
         let absorbed = self.merge(&changed, &near, &mut looks);
         update.removed.extend(&absorbed);
@@ -99,11 +99,12 @@ impl LocalModel {
         &mut self,
         groups: &[Vec<Echo>],
         beams: &[Beam],
-        is_explained: &[bool],
+        explained: &[Explained],
         looks: &[Look],
         time_s: f64,
     ) -> Vec<(Vec<usize>, ObjectId)> {
-        let clusters = Cluster::among(groups, is_explained, &self.settings);
+        let is_explained: Vec<bool> = explained.iter().map(|explained| explained.by_any).collect();
+        let clusters = Cluster::among(groups, &is_explained, &self.settings);
         let matched = self.segments.iter().zip(looks).filter(|(_, look)| look.is_matched);
         let standing: Vec<ObjectId> = matched.filter_map(|(segment, _)| segment.object).collect();
         let ids = self.objects.follow(&clusters, beams, |id| standing.contains(&id), time_s, &self.settings);

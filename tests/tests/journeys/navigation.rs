@@ -3,6 +3,7 @@
 mod bad_input;
 mod broken_rules;
 mod flat;
+mod hidden_speeds;
 mod journeys;
 mod kept;
 mod learning;

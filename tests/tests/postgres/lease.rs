@@ -12,7 +12,7 @@ use super::with_site;
 const LASTS: Duration = Duration::from_secs(1);
 
 /// So long that its owner does not keep it up while a test runs.
-const NOT_KEPT_UP: Duration = Duration::from_secs(3600);
+const NOT_KEPT_UP: Duration = Duration::from_hours(1);
 
 /// A copy of the site `paper`, as a service has it.
 struct Copy {

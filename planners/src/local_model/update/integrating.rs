@@ -6,8 +6,11 @@ use super::super::reinforce::{reinforce, same_surface};
 use super::super::sensor_model::Seen;
 use super::super::{LocalModel, SegmentId, Settings};
 use super::Update;
-use super::looking::Look;
+use super::looking::{Explained, Look};
 use crate::geometry::Rect;
+
+/// A surface that known ones do not explain has at least so many echoes that none of them explains.
+const FEWEST_OTHERS: usize = 2;
 
 impl LocalModel {
     /// Reinforces and extends what was seen again.
@@ -19,14 +22,18 @@ impl LocalModel {
         seen: &[Seen],
         near: &[Near],
         looks: &mut [Look],
-        is_explained: &mut [bool],
+        explained: &mut [Explained],
         update: &mut Update,
     ) -> (Vec<Seen>, Vec<usize>) {
         let (mut new, mut changed) = (Vec::new(), Vec::new());
         for one in seen {
             let found = self.matches(one, near);
             if found.is_empty() {
-                new.push(one.clone());
+                // a line through the echoes on either side of a known corner is no surface
+                let others = one.echoes.iter().filter(|echo| !explained[echo.beam].by_known).count();
+                if others >= FEWEST_OTHERS {
+                    new.push(one.clone());
+                }
                 continue;
             }
             update.matched += 1;
@@ -41,7 +48,7 @@ impl LocalModel {
                 changed.push(found[0].model);
             }
             for echo in &one.echoes {
-                is_explained[echo.beam] = true;
+                explained[echo.beam].by_any = true;
             }
         }
         changed.sort_unstable();

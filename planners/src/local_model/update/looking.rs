@@ -14,6 +14,14 @@ pub(super) struct Look {
     pub evidence: Evidence,
 }
 
+/// Whether an echo may come from where a segment of the model is.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Explained {
+    pub by_any: bool,
+    /// From one that scans leave where it is.
+    pub by_known: bool,
+}
+
 /// The first segment that a beam meets.
 pub(super) type First = Option<(usize, Crossing)>;
 
@@ -66,12 +74,12 @@ impl LocalModel {
         firsts.iter().flatten().filter(|first| agrees(first)).count()
     }
 
-    /// What beams say of the segments within hearing, what each beam meets first, and whether the model explains it.
-    pub(super) fn look(&self, beams: &[Beam], near: &[Near]) -> (Vec<Look>, Vec<First>, Vec<bool>) {
+    /// What beams say of the segments within hearing, what each beam meets first, and how far the model explains it.
+    pub(super) fn look(&self, beams: &[Beam], near: &[Near]) -> (Vec<Look>, Vec<First>, Vec<Explained>) {
         let fan = Fan::new(beams);
         let mut looks = vec![Look::default(); self.segments.len()];
         let mut firsts: Vec<First> = vec![None; beams.len()];
-        let mut is_explained = vec![false; beams.len()];
+        let mut explained = vec![Explained::default(); beams.len()];
         let mut crossings = Vec::new();
         let (at, least_sine) = (self.estimate.pose.at, self.settings.grazing_angle.sin());
         for wall in near {
@@ -89,12 +97,15 @@ impl LocalModel {
                     *first = Some((wall.model, *crossing));
                 }
                 let beam = &beams[crossing.beam];
-                is_explained[crossing.beam] |= crossing.agrees(beam, variance, &self.settings);
+                let agrees = crossing.agrees(beam, variance, &self.settings);
+                let Explained { by_any, by_known } = &mut explained[crossing.beam];
+                *by_any |= agrees;
+                *by_known |= agrees && segment.is_anchored;
             }
             looks[wall.model].evidence =
                 Evidence::new(&mut crossings, beams, wall.length_m, variance, least_sine, &self.settings);
         }
-        (looks, firsts, is_explained)
+        (looks, firsts, explained)
     }
 
     /// Readings in critical directions: there the model predicts them, and no matched segment has used them.
@@ -103,7 +114,7 @@ impl LocalModel {
         beams: &[Beam],
         firsts: &[First],
         seen: &[Seen],
-        is_explained: &[bool],
+        explained: &[Explained],
     ) -> usize {
         let mut is_used = vec![false; beams.len()];
         for echo in seen.iter().flat_map(|one| &one.echoes) {
@@ -118,7 +129,7 @@ impl LocalModel {
             let is_inside = crossing.place_m >= margin && crossing.place_m <= segment.line.length() - margin;
             let is_critical = crossing.sine >= sine && is_inside && segment.counts_for_pose;
             let is_told = !(is_vague && segment.is_anchored);
-            if !is_used[i] && is_explained[i] && is_critical && is_told {
+            if !is_used[i] && explained[i].by_any && is_critical && is_told {
                 correction.by_reading(&beams[i], crossing, segment, &self.estimate, &self.settings);
             }
         }

@@ -76,7 +76,10 @@ fn the_body_in_python_goes_from_place_to_place_and_squats_on_the_way_and_really_
     assert_eq!(site.sqlite3(shapes), ["SQUAT", "STAND"]);
     let why = site.adit("why", &["mission 1"]).expect_status(0).stdout;
     assert!(why.contains("it arrived"), "{why}");
-    assert_eq!(site.sqlite3("SELECT DISTINCT mission FROM traversals"), ["mission 1 of floor"]);
+    assert_eq!(
+        site.sqlite3("SELECT DISTINCT mission FROM traversals"),
+        ["mission 1 of floor, in SQUAT", "mission 1 of floor, in STAND"]
+    );
     let words =
         site.adit("drive", &["home", "1.5,6", "--body", &in_python(&site, "")]).expect_status(0).stdout;
     assert!(words.contains("it arrived, by its own account") && !words.contains("optimum"), "{words}");

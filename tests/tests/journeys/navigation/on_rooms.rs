@@ -76,6 +76,32 @@ fn boxes_that_nobody_knows_of_are_passed_or_said_to_shut_the_way_and_nothing_is_
 }
 
 #[test]
+fn who_is_carried_off_finds_itself_again_or_says_that_it_does_not_know_where_it_is() {
+    let site = TestSite::example("hospital").built();
+    let rows = rows(&site, &["--missions", "5", "--seed", "1", "--kidnap"]);
+    let kidnapped: Vec<&Value> = rows.iter().filter(|row| row["kidnapped"].is_array()).collect();
+    assert!(kidnapped.len() > 2, "{rows:?}");
+    assert!(kidnapped.iter().any(|row| row["ending"] == "arrived"), "{rows:?}");
+    assert!(rows.iter().all(|row| row["right"] == true && row["collided"] == false), "{rows:?}");
+    // what was driven before led elsewhere, and is compared with nothing
+    assert!(kidnapped.iter().all(|row| row["least_cost"].is_null()), "{rows:?}");
+}
+
+#[test]
+fn from_errand_to_errand_it_knows_where_it_is_to_some_centimetres() {
+    let site = TestSite::example("clinic").built();
+    let curve = site.path().join("curve.svg");
+    let args = ["--curve", curve.to_str().unwrap(), "--metres", "80", "--seed", "3", "--json"];
+    let drives = site.adit("simulate", &args).expect_status(0).json();
+    let drive = &drives[0];
+    let figure = |key: &str| drive[key].as_f64().unwrap_or_else(|| panic!("{key} of {drive}"));
+    assert!(figure("length") >= 80.0 && drives.as_array().map(Vec::len) == Some(1), "{drives}");
+    assert!(figure("error") < 0.05 && figure("heading_error") < 1.0, "{drive}");
+    let picture = site.read("curve.svg");
+    assert!(picture.contains("position, walls known") && !picture.contains("model built on the way"));
+}
+
+#[test]
 fn what_it_meets_is_told_for_an_hour_so_that_everybody_goes_round_it_and_is_taken_back() {
     let site = TestSite::example("hospital").built();
     let told = site.adit("simulate", &["--missions", "1", "--seed", "20", "--tell"]);

@@ -9,10 +9,10 @@ const ARGS: [&str; 11] =
     ["--robot", "crawler", "--robots", "3", "--minutes", "4", "--doors", "3", "--seed", "3", "--tell"];
 
 /// For each time that one told the site something while another was under way, and went on being so for a second, the seconds until
-/// the other had heard of it, or asked for a way itself; a minute, where it took longer. Who goes to where it can tell where it is does not listen.
+/// the other had heard of it, or asked for a way itself (after it told something, even if there was none); a minute, where it took longer. Who goes to where it can tell where it is does not listen.
 const HEARD: &str = "WITH spans AS (SELECT mission, min(time) AS since, max(time) AS until FROM journal GROUP BY mission)
     SELECT min(coalesce((SELECT min(heard.time) FROM journal AS heard
-        WHERE heard.event IN ('heard', 'planned') AND heard.mission = spans.mission AND heard.time >= told.time), 1e9) - told.time, 60)
+        WHERE heard.event IN ('heard', 'planned', 'told') AND heard.mission = spans.mission AND heard.time >= told.time), 1e9) - told.time, 60)
     FROM journal AS told
     JOIN spans ON spans.mission <> told.mission AND spans.since <= told.time AND spans.until >= told.time + 1
     WHERE told.event = 'told'
