@@ -6,7 +6,8 @@
 use rayon::prelude::*;
 
 use crate::geometry::outline::{outlines, simplified};
-use crate::geometry::{Point, Segment, polygon};
+use crate::geometry::{Point, Rect, Segment, polygon};
+use crate::rect_index::RectIndex;
 use crate::world::Occupancy;
 
 /// The longest line, metres; where the floor is wider it is one space.
@@ -77,11 +78,21 @@ pub(super) fn lines(floor: &Occupancy) -> Vec<Line> {
     let tips: Vec<Tip> = outlines.iter().flat_map(|outline| tips(outline)).collect();
     let walls: Vec<Segment> = outlines.iter().flat_map(|outline| polygon::sides(outline)).collect();
     let longest = LONGEST_M / floor.resolution;
+    let tips_at = RectIndex::new(tips.iter().map(|tip| Rect::around([tip.at])));
+    let walls_at = RectIndex::new(walls.iter().map(Segment::bounds));
+    let about = |index: &RectIndex, at: Point| {
+        let mut found: Vec<usize> = index.meeting(Rect::around([at]).grown(longest)).collect();
+        found.sort_unstable();
+        found.into_iter()
+    };
+    let (tips_ref, walls_ref) = (&tips, &walls);
     let lines = tips.par_iter().enumerate().flat_map_iter(|(number, tip)| {
         let near = move |p: Point| (2.0..=longest).contains(&tip.at.distance(p));
-        let others = tips[number + 1..].iter().filter(move |other| near(other.at));
+        let others = about(&tips_at, tip.at).filter(move |other| *other > number);
+        let others = others.map(move |other| &tips_ref[other]).filter(move |other| near(other.at));
         let to_tips = others.filter_map(move |other| line(floor, tip, other.at, Some(other)));
-        let feet = walls.iter().map(move |wall| (wall, wall.nearest_to(tip.at)));
+        let feet = about(&walls_at, tip.at).map(move |wall| &walls_ref[wall]);
+        let feet = feet.map(move |wall| (wall, wall.nearest_to(tip.at)));
         let feet = feet.filter(move |(wall, foot)| *foot != wall.a && *foot != wall.b && near(*foot));
         to_tips.chain(feet.filter_map(move |(_, foot)| line(floor, tip, foot, None)))
     });

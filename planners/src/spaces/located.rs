@@ -16,8 +16,52 @@ const BESIDE_M: f64 = 0.5;
 /// The spaces of a building, found by points.
 pub(crate) struct Located {
     numbers: Vec<f64>,
-    sides: Vec<Vec<Segment>>,
+    sides: Vec<Rows>,
     index: RectIndex,
+}
+
+/// The sides of an outline by the rows that they cross: a space may have as many as a building has corners.
+struct Rows {
+    least_y: f64,
+    rows: Vec<Vec<Segment>>,
+}
+
+/// A row is so high, metres.
+const ROW_M: f64 = 1.0;
+
+/// An outline has at most so many rows; what lies above is in the last one.
+const MOST_ROWS: usize = 100_000;
+
+impl Rows {
+    fn new(sides: impl Iterator<Item = Segment> + Clone) -> Self {
+        let least_y = sides.clone().map(|side| side.a.y).fold(f64::INFINITY, f64::min);
+        let mut all = Self { least_y, rows: Vec::new() };
+        for side in sides {
+            let bounds = side.bounds();
+            let (first, last) = (all.row(bounds.y0), all.row(bounds.y1));
+            if all.rows.len() <= last {
+                all.rows.resize(last + 1, Vec::new());
+            }
+            all.rows[first..=last].iter_mut().for_each(|row| row.push(side));
+        }
+        all
+    }
+
+    fn row(&self, y: f64) -> usize {
+        (((y - self.least_y) / ROW_M) as usize).min(MOST_ROWS)
+    }
+
+    fn encloses(&self, p: Point) -> bool {
+        let row = self.rows.get(self.row(p.y));
+        row.is_some_and(|row| polygon::encloses(row.iter().copied(), p))
+    }
+
+    /// Metres from a point to the nearest side that is no farther than [`BESIDE_M`]; infinite where none is.
+    fn distance(&self, p: Point) -> f64 {
+        let (first, last) = (self.row(p.y - BESIDE_M), self.row(p.y + BESIDE_M));
+        let near = self.rows.iter().take(last + 1).skip(first).flatten();
+        near.map(|side| side.distance(p)).filter(|off| *off <= BESIDE_M).fold(f64::INFINITY, f64::min)
+    }
 }
 
 impl Located {
@@ -40,7 +84,7 @@ impl Located {
                 let rings: Vec<Vec<Point>> = rings.collect();
                 numbers.push(*number);
                 bounds.push(Rect::around(rings.iter().flatten().copied()).grown(BESIDE_M));
-                sides.push(rings.iter().flat_map(|ring| polygon::sides(ring)).collect());
+                sides.push(Rows::new(rings.iter().flat_map(|ring| polygon::sides(ring))));
             }
         }
         Ok(Self { numbers, sides, index: RectIndex::new(bounds) })
@@ -49,13 +93,11 @@ impl Located {
     /// The number of the space that a point lies in, or else of the nearest one that it lies beside.
     pub fn at(&self, p: Point) -> Option<f64> {
         let near = self.index.at(p);
-        let within = near.iter().find(|&&space| polygon::encloses(self.sides[space].iter().copied(), p));
+        let within = near.iter().find(|&&space| self.sides[space].encloses(p));
         let space = within.copied().or_else(|| {
-            let off = |space: &usize| {
-                self.sides[*space].iter().map(|side| side.distance(p)).fold(f64::INFINITY, f64::min)
-            };
+            let off = |space: &usize| self.sides[*space].distance(p);
             let nearest = near.iter().copied().min_by(|one, two| off(one).total_cmp(&off(two)))?;
-            (off(&nearest) <= BESIDE_M).then_some(nearest)
+            off(&nearest).is_finite().then_some(nearest)
         })?;
         Some(self.numbers[space])
     }
