@@ -66,6 +66,11 @@ impl TestSite {
         Self::copy_of(&repository().join("kb/sites").join(name))
     }
 
+    /// A copy of one of the sites in `tests/tests/hostile/sites`.
+    pub fn hostile(name: &str) -> Self {
+        Self::copy_of(&repository().join("tests/tests/hostile/sites").join(name))
+    }
+
     /// A copy of the site as it is now, database and all.
     #[must_use]
     pub fn copied(&self) -> Self {

@@ -32,6 +32,8 @@ pub struct Ground {
     pub buildings: Vec<Building>,
     /// What stands, whatever the robot's height.
     pub plan: FloorPlan,
+    /// What the map shows, as far as it goes.
+    bounds: Rect,
     pub walls: Vec<Segment>,
     /// Where spaces go over into each other.
     pub doorways: Vec<Segment>,
@@ -84,6 +86,7 @@ impl Ground {
             states: Vec::new(),
             buildings: Vec::new(),
             plan,
+            bounds: state.world.bounds,
             walls,
             driving: figures::driving(&asked, Driving::of_rooms())?,
             changes: BTreeMap::new(),
@@ -191,6 +194,11 @@ impl Ground {
     /// The radius of the widest shape, metres.
     pub fn widest_radius(&self) -> f64 {
         self.shapes.all.iter().map(|shape| shape.radius_m).fold(0.0, f64::max)
+    }
+
+    /// Whether something lies on the map, so that it can be laid over it.
+    pub fn is_on_map(&self, outline: &[Point]) -> bool {
+        Rect::around(outline.iter().copied()).overlaps(&self.bounds)
     }
 
     /// Whether a route ends at a point, as near as a robot has to come to it.

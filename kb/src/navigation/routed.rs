@@ -159,7 +159,7 @@ impl Site<'_> {
         let nearer = stands.iter().map(|(number, one)| {
             grown_by(&Segment::new(one.at, one.at), self.thickness(&met[..*number], one))
         });
-        things.extend(nearer);
+        things.extend(nearer.filter(|thing| self.ground.is_on_map(thing)));
         // beside the floor nothing is in the way
         let is_on_floor = |at: Point| {
             !state.world.is_solid(at) && !things.iter().any(|thing| polygon::is_in_convex(thing, at, HAIR_M))
@@ -219,7 +219,9 @@ impl Site<'_> {
             let seen = one.seen.iter().flat_map(|surface| beside(surface, grown, &clear));
             seen.map(|surface| grown_by(&surface, grown)).collect::<Vec<_>>()
         };
-        things(met.iter().enumerate().flat_map(thick), &clear)
+        let mut things = things(met.iter().enumerate().flat_map(thick), &clear);
+        things.retain(|thing| self.ground.is_on_map(thing));
+        things
     }
 
     /// What it met, without what others are that drive here: they are gone when somebody comes by.
@@ -578,10 +580,11 @@ impl Missions<'_> {
     /// What is possible for who knows of all obstacles.
     fn judged(&self, mission: &Mission, ends: (Point, &str), shape: usize) -> Result<Judged> {
         let errand = Errand { start_state: Some(self.ground.states[shape].clone()), ..Errand::default() };
-        let boxes = (1..).zip(&mission.obstacles);
-        let boxes = boxes.map(|(number, obstacle): (usize, _)| {
-            Edit::Lay(laid(format!("unknown box {number}"), &obstacle.at_rest()))
-        });
+        // one that comes to rest beside the map is in nobody's way
+        let boxes = mission.obstacles.iter().map(Obstacle::at_rest);
+        let boxes = (1..).zip(boxes.filter(|thing| self.ground.is_on_map(thing)));
+        let boxes =
+            boxes.map(|(number, thing): (usize, _)| Edit::Lay(laid(format!("unknown box {number}"), &thing)));
         let mut edits: Vec<Edit> = boxes.collect();
         let best = |edits: &[Edit]| -> Result<Option<Answer>> {
             let answer = where_it_fits(asked(self.live.fork(), edits, ends, &errand, &self.ground.robot))?;

@@ -52,6 +52,8 @@ pub enum WorkcellError {
     SameName(String),
     #[error("object {0} is not at a finite pose")]
     NotFinite(String),
+    #[error("object {0} is more than 1000 km away")]
+    TooFar(String),
 }
 
 impl Workcell {
@@ -230,12 +232,18 @@ impl Placed {
     }
 }
 
+/// Places are told to a micrometre up to there, metres; what is farther off no arm comes near.
+const FARTHEST_M: f64 = 1e6;
+
 pub(super) fn check<'o>(objects: impl IntoIterator<Item = &'o Object>) -> Result<(), WorkcellError> {
     let mut names = BTreeSet::new();
     for object in objects {
         let pose = &object.pose;
         if !(pose.at.x.is_finite() && pose.at.y.is_finite() && pose.heading.is_finite()) {
             return Err(WorkcellError::NotFinite(object.name.clone()));
+        }
+        if pose.at.length() > FARTHEST_M {
+            return Err(WorkcellError::TooFar(object.name.clone()));
         }
         if !names.insert(&object.name) {
             return Err(WorkcellError::SameName(object.name.clone()));

@@ -21,6 +21,9 @@ pub struct Disc {
     pub margin: f64,
 }
 
+/// Walls that are grown by more, metres, take for ever to be put together.
+const WIDEST_M: f64 = 1e6;
+
 impl Disc {
     /// How far its centre stays from walls, metres.
     pub fn reach(&self) -> f64 {
@@ -39,6 +42,11 @@ impl Disc {
             let message =
                 format!("the robot's margin is {margin} and must be a finite number from 0 on, in metres");
             problems.push(Problem::of_file(Code::NotPositive, message));
+        }
+        if problems.is_empty() && self.reach() > WIDEST_M {
+            let message =
+                format!("the robot needs {} m on either side, and no floor is so wide", self.reach());
+            problems.push(Problem::of_file(Code::RobotTooWide, message));
         }
         if problems.is_empty() { Ok(()) } else { Err(MapErrors { problems }) }
     }

@@ -14,6 +14,14 @@ use crate::world::Property;
 /// coordinate would be lost, and sums of hardness would not stay finite.
 pub const LARGEST: f64 = 1e15;
 
+/// What is nearer to 0 is 0: the products of such numbers have hardly any digits left, or none.
+const LEAST: f64 = 1e-100;
+
+/// A number without what is too little to be reckoned with.
+pub fn reckoned(number: f64) -> f64 {
+    if number.abs() < LEAST { 0.0 } else { number }
+}
+
 /// A TOML document that was parsed, to be read field by field.
 pub struct Document<'i> {
     table: Spanned<DeTable<'i>>,
@@ -308,7 +316,7 @@ impl Fields<'_, '_> {
             }
         };
         if number.abs() <= LARGEST {
-            return Some(number);
+            return Some(reckoned(number));
         }
         let message = if number.is_finite() {
             format!("`{key}` is {number:e}, and numbers up to {LARGEST:e} are read")

@@ -6,6 +6,7 @@ use std::ops::Range;
 use serde_json::{Map, Value};
 
 use super::diagnostic::{Code, Problem};
+use super::fields::reckoned;
 use super::source::Source;
 use crate::geometry::Point;
 
@@ -110,7 +111,7 @@ impl<'v> At<'v> {
     pub fn number(&self) -> Read<f64> {
         let number = self.value.as_f64().ok_or_else(|| self.wrong("a number"))?;
         if number.abs() <= LARGEST {
-            return Ok(number);
+            return Ok(reckoned(number));
         }
         Err(self.problem(Code::NotFinite, &format!("is {number:e}, expected at most {LARGEST:e}")))
     }

@@ -22,6 +22,7 @@ mod foreign_hands;
 mod from_rule_files;
 mod geodata;
 mod given_up;
+mod hostile;
 mod hours;
 mod house;
 mod laid;

@@ -1,5 +1,7 @@
 //! Small texts that would take much memory or time: each ends soon, in little, and leaves the service answering.
 
+use std::io::{Read, Write};
+use std::net::TcpStream;
 use std::time::{Duration, Instant};
 
 use adit_tests::TestSite;
@@ -198,4 +200,74 @@ fn rules_are_tried_by_those_who_may_edit_them() {
     let body = json!({"file": "doors.rhai", "text": site.read("rules/doors.rhai")});
     let ask = |token: &str| service.ask_as(&[token], "POST", "/api/rules/check", Some(&body)).0;
     assert_eq!((ask(&reader), ask(&author)), (403, 200));
+}
+
+/// The files of a folder beside this one, by name.
+fn folder(name: &str) -> Vec<(String, Vec<u8>)> {
+    let folder = adit_tests::repository().join("tests/tests/hostile").join(name);
+    let mut files: Vec<_> = std::fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| {
+            let file = entry.unwrap().path();
+            (file.file_name().unwrap().to_string_lossy().into_owned(), std::fs::read(file).unwrap())
+        })
+        .collect();
+    files.sort();
+    assert!(files.len() > 5, "{name}");
+    files
+}
+
+/// The median time of a question that everybody asks.
+fn usual(service: &Service) -> Duration {
+    let mut times: Vec<Duration> = (0..31)
+        .map(|_| {
+            let began = Instant::now();
+            assert_eq!(service.ask("GET", "/api/route?start=f&goal=e", None).0, 200);
+            began.elapsed()
+        })
+        .collect();
+    times.sort();
+    times[times.len() / 2]
+}
+
+/// Sends bytes that are no request, or hardly one, and reads what comes until the service hangs up, or for a moment.
+fn send(service: &Service, bytes: &[u8]) -> String {
+    let mut stream = TcpStream::connect(&service.address).unwrap();
+    stream.set_read_timeout(Some(Duration::from_millis(500))).unwrap();
+    // who is refused at once may be hung up on while it still speaks
+    stream.write_all(bytes).ok();
+    let mut answer = Vec::new();
+    stream.read_to_end(&mut answer).ok();
+    String::from_utf8_lossy(&answer).into_owned()
+}
+
+#[test]
+fn the_folder_of_hostile_texts_leaves_the_service_answering_at_its_usual_speed() {
+    let (_site, service) = with_rules();
+    let before = usual(&service);
+    for (name, text) in folder("rules") {
+        let text = String::from_utf8_lossy(&text).into_owned();
+        let began = Instant::now();
+        let body = json!({"file": "hostile.rhai", "text": text});
+        let (status, answer) = service.ask("POST", "/api/rules/check", Some(&body));
+        expect_soon(began, &name);
+        assert!(matches!(status, 200 | 400 | 413), "{name}: {status} {answer}");
+    }
+    for (name, query) in folder("sql") {
+        let query = String::from_utf8_lossy(&query).into_owned();
+        let began = Instant::now();
+        let (status, answer) = service.ask("POST", "/api/sql", Some(&json!({"query": query})));
+        expect_soon(began, &name);
+        assert!(matches!(status, 200 | 400), "{name}: {status} {answer}");
+    }
+    for (name, request) in folder("requests") {
+        let began = Instant::now();
+        let answer = send(&service, &request);
+        expect_soon(began, &name);
+        assert!(answer.is_empty() || answer.starts_with("HTTP/1.1 4"), "{name}: {answer}");
+    }
+    expect_little(&service, "a folder of hostile texts");
+    let after = usual(&service);
+    assert!(after <= 3 * before + Duration::from_millis(5), "{after:?}, and {before:?} before");
+    assert_eq!(service.ask("POST", "/api/edits", Some(&hardness("SQUAT", 3.0))).0, 200);
 }

@@ -6,7 +6,7 @@ use serde::Deserialize;
 use serde_saphyr::Spanned;
 
 use super::super::diagnostic::{Code, MapErrors, Problem, Text};
-use super::super::fields::{LARGEST, Located, span_in};
+use super::super::fields::{LARGEST, Located, reckoned, span_in};
 use super::super::occupancy::Cell;
 use super::super::suggest::nearest;
 use crate::pose::Pose;
@@ -180,7 +180,7 @@ fn explain((source, text): (&Text, &str), error: &serde_saphyr::Error) -> Proble
 fn positive(source: &Text, key: &str, number: &Located<f64>, problems: &mut Vec<Problem>) -> Option<f64> {
     let code = if number.value.is_nan() || number.value > LARGEST {
         Code::NotFinite
-    } else if number.value <= 0.0 {
+    } else if reckoned(number.value) <= 0.0 {
         Code::NotPositive
     } else {
         return Some(number.value);
@@ -195,7 +195,9 @@ fn positive(source: &Text, key: &str, number: &Located<f64>, problems: &mut Vec<
 
 fn origin(source: &Text, origin: &Located<Vec<f64>>, problems: &mut Vec<Problem>) -> Option<Pose> {
     let problem = match origin.value[..] {
-        [x, y, yaw] if [x, y, yaw].iter().all(|v| v.abs() <= LARGEST) => return Some(Pose::new(x, y, yaw)),
+        [x, y, yaw] if [x, y, yaw].iter().all(|v| v.abs() <= LARGEST) => {
+            return Some(Pose::new(reckoned(x), reckoned(y), reckoned(yaw)));
+        }
         [_, _, _] => source.problem(
             Code::NotFinite,
             &origin.span,

@@ -1,0 +1,1 @@
+ATTACH '/tmp/hostile.db' AS other

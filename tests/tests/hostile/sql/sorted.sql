@@ -1,0 +1,1 @@
+SELECT a.*, b.* FROM doors a, doors b, doors c ORDER BY random()
