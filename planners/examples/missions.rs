@@ -70,7 +70,7 @@ fn mission(
     number: u64,
 ) -> Option<(Mission, Possible)> {
     let mission = draw(plan, &building.network, outfit.robot.radius_m, number)?;
-    let possible = mission.possible(plan, outfit.robot.radius_m)?;
+    let possible = mission.possible(mission.start.at, plan, outfit.robot.radius_m)?;
     Some((mission, possible))
 }
 

@@ -2,9 +2,11 @@
 
 use std::f64::consts::{PI, TAU};
 
+use rayon::prelude::*;
+
 use super::planar::Planar;
 use crate::geometry::tolerance::ROUNDING_M;
-use crate::geometry::{Point, Segment, cross};
+use crate::geometry::{Point, RayGrid, Segment, cross};
 
 /// Angles that differ by less count as equal, radians.
 pub(super) const ANGLE: f64 = 1e-7;
@@ -50,6 +52,8 @@ pub(super) struct Face {
     pub nodes: Vec<u32>,
     pub sides: Vec<Side>,
     pub corners: Vec<Corner>,
+    /// The sides, found by what is looked across.
+    grid: RayGrid,
 }
 
 /// The angle from one direction counterclockwise to another, 0 to a whole turn.
@@ -103,30 +107,31 @@ impl Face {
             direction: plan.edges[edge as usize].direction,
             free: [has(2 * edge), has(2 * edge + 1)],
         };
-        let sides = edges.iter().map(side).collect();
-        let points = nodes.iter().map(|&node| plan.points[node as usize]).collect();
-        Self { points, nodes, sides, corners }
+        let sides: Vec<Side> = edges.iter().map(side).collect();
+        let points: Vec<Point> = nodes.iter().map(|&node| plan.points[node as usize]).collect();
+        let line = |side: &Side| Segment::from(side.ends.map(|node| points[node as usize]));
+        let grid = RayGrid::new(sides.iter().map(line).collect());
+        Self { points, nodes, sides, corners, grid }
     }
 
     /// Pairs of corners that see and resolve one another.
     pub fn chords(&self) -> Vec<[u32; 2]> {
-        let mut chords = Vec::new();
-        for (first, a) in (0_u32..).zip(&self.corners) {
-            for (second, b) in (0_u32..).zip(&self.corners).skip(first as usize + 1) {
+        let of = |first: usize| {
+            let a = &self.corners[first];
+            let others = (0_u32..).zip(&self.corners).skip(first + 1);
+            let seen = others.filter(move |(_, b)| {
                 let (p, q) = (self.points[a.node as usize], self.points[b.node as usize]);
                 let there = q - p;
                 let back = -there;
-                if a.may_be_resolved_along(there)
+                a.may_be_resolved_along(there)
                     && b.may_be_resolved_along(back)
                     && a.place(there).is_some_and(|angle| a.is_resolved_by(angle))
                     && b.place(back).is_some_and(|angle| b.is_resolved_by(angle))
                     && self.is_seen(a.node, b.node)
-                {
-                    chords.push([first, second]);
-                }
-            }
-        }
-        chords
+            });
+            seen.map(move |(second, _)| [first as u32, second])
+        };
+        (0..self.corners.len()).into_par_iter().flat_map_iter(of).collect()
     }
 
     /// Whether the straight way between two points meets no wall but at its ends.
@@ -139,13 +144,14 @@ impl Face {
                 && (r - p).dot(q - p) > 0.0
                 && (r - q).dot(p - q) > 0.0
         };
-        let ends = [from as usize, to as usize];
-        let is_free = (0..self.points.len()).all(|node| ends.contains(&node) || !is_between(node));
-        is_free
-            && self.sides.iter().all(|side| {
-                let touches = side.ends.contains(&from) || side.ends.contains(&to);
-                touches || !Segment::new(p, q).crosses(&self.line(side.ends))
-            })
+        let way = Segment::new(p, q);
+        // each node is an end of a side
+        self.grid.beside(way).all(|side| {
+            let ends = self.sides[side].ends;
+            let is_own = |node: &u32| *node == from || *node == to;
+            ends.iter().all(|node| is_own(node) || !is_between(*node as usize))
+                && (ends.iter().any(is_own) || !way.crosses(&self.line(ends)))
+        })
     }
 
     pub fn look_around(&mut self) {
@@ -153,8 +159,7 @@ impl Face {
         for (number, corner) in (0_u32..).zip(&self.corners) {
             corner_at[corner.node as usize] = Some(number);
         }
-        for number in 0..self.corners.len() {
-            let corner = &self.corners[number];
+        let look = |corner: &Corner| {
             let from = self.points[corner.node as usize];
             let mut sights = Vec::new();
             for (node, &to) in (0_u32..).zip(&self.points) {
@@ -176,7 +181,11 @@ impl Face {
                 node: None,
                 resolves: None,
             }));
-            self.corners[number].sights = sights;
+            sights
+        };
+        let sights: Vec<Vec<Sight>> = self.corners.par_iter().map(look).collect();
+        for (corner, sights) in self.corners.iter_mut().zip(sights) {
+            corner.sights = sights;
         }
     }
 
@@ -184,6 +193,12 @@ impl Face {
     pub fn do_hinder(&self, one: [u32; 2], other: [u32; 2]) -> bool {
         let line = |ends: [u32; 2]| self.line(ends.map(|c| self.corners[c as usize].node));
         one.iter().any(|corner| other.contains(corner)) || line(one).crosses(&line(other))
+    }
+
+    /// Square metres on a side as long as the cut between two corners.
+    pub fn squared_length(&self, corners: [u32; 2]) -> f64 {
+        let [a, b] = corners.map(|corner| self.points[self.corners[corner as usize].node as usize]);
+        a.squared_distance(b)
     }
 
     fn line(&self, ends: [u32; 2]) -> Segment {

@@ -105,12 +105,14 @@ impl Cutting {
     /// smaller faces, which can be cut one by one.
     fn cut_doors(&mut self, face: &Face) {
         let chords = face.chords();
-        for (place, &chord) in chords.iter().enumerate() {
-            let rivals = chords.iter().enumerate().filter(|(other, _)| *other != place);
-            if rivals.into_iter().all(|(_, &other)| !face.do_hinder(chord, other)) {
-                let [a, b] = chord.map(|corner| face.nodes[face.corners[corner as usize].node as usize]);
-                self.lines.push(Edge::between(&self.points, a, b));
-            }
+        let is_a_door = |place: &usize| {
+            let rivals = (0..chords.len()).filter(|other| other != place);
+            rivals.into_iter().all(|other| !face.do_hinder(chords[*place], chords[other]))
+        };
+        let doors: Vec<usize> = (0..chords.len()).into_par_iter().filter(is_a_door).collect();
+        for door in doors {
+            let [a, b] = chords[door].map(|corner| face.nodes[face.corners[corner as usize].node as usize]);
+            self.lines.push(Edge::between(&self.points, a, b));
         }
     }
 

@@ -2,6 +2,8 @@
 
 use std::cmp::Ordering;
 
+use rayon::prelude::*;
+
 use super::face::Face;
 use super::layout::{Cut, Layout};
 use super::merged::merged;
@@ -12,6 +14,12 @@ use crate::random::Xorshift;
 const TRIALS: usize = 24;
 const TRIALS_PER_CORNER: usize = 8;
 const MOST_TRIALS: usize = 300;
+
+/// A trial looks from each corner at all walls; all trials of a face together look so often at most.
+const MOST_LOOKS: usize = 100_000_000;
+
+/// Of more pairs of corners it is not counted which hinder which: a scan has tens of thousands.
+const MOST_PAIRS: usize = 4_000;
 
 /// The order of cuts that was found best.
 pub(super) fn best_order(face: &Face) -> Vec<Cut> {
@@ -30,7 +38,8 @@ pub(super) fn best_order(face: &Face) -> Vec<Cut> {
     };
     let mut random = Xorshift::new();
     let trials = TRIALS + TRIALS_PER_CORNER * face.corners.len();
-    for _ in 0..trials.min(MOST_TRIALS) {
+    let looks = face.corners.len() * (face.points.len() + face.sides.len());
+    for _ in 0..trials.min(MOST_TRIALS).min(MOST_LOOKS / looks.max(1)) {
         let mut other = best.clone();
         for _ in 0..=random.below(2) {
             change(face, &mut other, &mut random);
@@ -62,18 +71,49 @@ fn first_order(face: &Face) -> Vec<Cut> {
             }
         }
     }
-    let mut left: Vec<usize> = (0..pairs.len()).collect();
+    let ends: Vec<[u32; 2]> = pairs.iter().map(|(ends, _)| *ends).collect();
+    let chosen = if pairs.len() <= MOST_PAIRS { least_hindering(face, &ends) } else { shortest(face, &ends) };
     let (mut order, mut is_taken) = (Vec::new(), vec![false; face.corners.len()]);
-    while !left.is_empty() {
-        let rivals = |&i: &usize| left.iter().filter(|&&j| face.do_hinder(pairs[i].0, pairs[j].0)).count();
-        let Some(chosen) = left.iter().copied().min_by_key(rivals) else { break };
+    for chosen in chosen {
         let ([corner, other], sight) = pairs[chosen];
         order.push(Cut::Towards { corner, sight });
         (is_taken[corner as usize], is_taken[other as usize]) = (true, true);
-        left.retain(|&i| !face.do_hinder(pairs[chosen].0, pairs[i].0));
     }
     let rest = (0..face.corners.len() as u32).filter(|&corner| !is_taken[corner as usize]);
     order.extend(rest.map(|corner| Cut::First { corner }));
+    order
+}
+
+/// Pairs that do not hinder one another, each time one that hinders the fewest that are left.
+fn least_hindering(face: &Face, pairs: &[[u32; 2]]) -> Vec<usize> {
+    let do_hinder = |i: usize, j: usize| face.do_hinder(pairs[i], pairs[j]);
+    let all = 0..pairs.len();
+    // by how many that are left each one is hindered, itself counted
+    let rivals = |i: usize| all.clone().filter(|&j| do_hinder(i, j)).count();
+    let mut rivals: Vec<usize> = all.clone().into_par_iter().map(rivals).collect();
+    let (mut left, mut order): (Vec<usize>, Vec<usize>) = (all.collect(), Vec::new());
+    while let Some(chosen) = left.iter().copied().min_by_key(|&i| rivals[i]) {
+        order.push(chosen);
+        let (gone, stays): (Vec<usize>, Vec<usize>) = left.into_iter().partition(|&i| do_hinder(chosen, i));
+        left = stays;
+        for &i in &left {
+            rivals[i] -= gone.iter().filter(|&&j| do_hinder(i, j)).count();
+        }
+    }
+    order
+}
+
+/// Pairs that do not hinder one another, the shortest first: they mostly hinder few.
+fn shortest(face: &Face, pairs: &[[u32; 2]]) -> Vec<usize> {
+    let mut left: Vec<(f64, usize)> =
+        pairs.iter().enumerate().map(|(place, &ends)| (face.squared_length(ends), place)).collect();
+    left.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    let mut order: Vec<usize> = Vec::new();
+    for (_, place) in left {
+        if order.iter().all(|&chosen| !face.do_hinder(pairs[chosen], pairs[place])) {
+            order.push(place);
+        }
+    }
     order
 }
 

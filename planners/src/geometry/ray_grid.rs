@@ -97,6 +97,27 @@ impl RayGrid {
         best
     }
 
+    /// Segments that may meet a straight way, or come as near to it as rounding tells, by index, from its begin on. One may come
+    /// more than once.
+    pub fn beside(&self, way: Segment) -> impl Iterator<Item = usize> {
+        let (along, length) = (way.direction(), way.length());
+        let bounds = self.bounds();
+        let inside = bounds.clip(way.a, way.b);
+        let entered = inside.map_or(0.0, |(enter, _)| enter.distance(way.a));
+        let mut walk = inside.map(|(enter, _)| Walk::new(self, enter, along));
+        let cells = std::iter::from_fn(move || {
+            let here = walk.as_mut()?;
+            let cell = here.cell(self)?;
+            if entered + here.leaves() > length {
+                walk = None;
+            } else {
+                here.step();
+            }
+            Some(cell)
+        });
+        cells.flat_map(|cell| self.cells.of(cell)).map(|&segment| segment as usize)
+    }
+
     /// Segments that may lie within a distance of a point. One may come more than once.
     pub fn around(&self, p: Point, reach_m: f64) -> impl Iterator<Item = &Segment> {
         let cells = self.cells_about(&Rect::around([p]).grown(reach_m));
@@ -193,6 +214,18 @@ mod tests {
             let found = RayGrid::new(walls).cast(from, towards, 8.0).map_or(f64::INFINITY, |echo| echo.distance);
             let expected = if nearest <= 8.0 { nearest } else { f64::INFINITY };
             prop_assert!(found.total_cmp(&expected).is_eq(), "{found} is not {expected}");
+        }
+
+        #[test]
+        fn no_wall_across_a_way_is_forgotten(
+            walls in walls(), (x0, y0, x1, y1) in (-15.0..15.0, -15.0..25.0, -15.0..15.0, -15.0..25.0), whole in any::<bool>(),
+        ) {
+            let at = |x: f64, y: f64| if whole { Point::new(x.round(), y.round()) } else { Point::new(x, y) };
+            let way = Segment::new(at(x0, y0), at(x1, y1));
+            let found: Vec<usize> = RayGrid::new(walls.clone()).beside(way).collect();
+            for (number, wall) in walls.iter().enumerate() {
+                prop_assert!(!way.meets(wall) || found.contains(&number), "{number}");
+            }
         }
 
         #[test]
