@@ -49,6 +49,8 @@ pub async fn hear(
     heard: UnboundedSender<Heard>,
 ) {
     let mut is_up = None;
+    // subscriptions that the broker has not confirmed: what is published before it has them is not heard
+    let mut asked = 0;
     loop {
         let say = match events.poll().await {
             Ok(Event::Incoming(Packet::ConnAck(_))) => {
@@ -58,6 +60,14 @@ pub async fn hear(
                     let all = format!("{interface}/+/+/+/{topic}");
                     // the queue is empty here
                     let _ = client.try_subscribe(all, QoS::AtLeastOnce);
+                }
+                asked = TOPICS.len();
+                continue;
+            }
+            Ok(Event::Incoming(Packet::SubAck(_))) if asked > 0 => {
+                asked -= 1;
+                if asked > 0 {
+                    continue;
                 }
                 Heard::Broker(None)
             }
