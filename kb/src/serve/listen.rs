@@ -64,6 +64,9 @@ async fn accept(shared: &Arc<Shared>, listener: &TcpListener) {
     let mut end = std::pin::pin!(told_to_end());
     loop {
         let (stream, from) = tokio::select! {
+            // looked at first: who has been answered once is heard when it ends the service
+            biased;
+            () = &mut end => break,
             accepted = listener.accept() => if let Ok(accepted) = accepted {
                 accepted
             } else {
@@ -71,7 +74,6 @@ async fn accept(shared: &Arc<Shared>, listener: &TcpListener) {
                 tokio::time::sleep(Duration::from_millis(50)).await;
                 continue;
             },
-            () = &mut end => break,
         };
         let place = match shared.connections.hold(&Arc::new(Asker::at(from.ip())), 1) {
             Ok(place) => place,
