@@ -104,7 +104,7 @@ pub struct SimulateArgs {
     pub drive: Option<PathBuf>,
     /// Instead of missions, drive from stop to stop, and draw how wrong the estimated pose is over the distance: .svg or
     /// .png; on a floor plan with the walls known and with a model built on the way. --missions says how many drives of each
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["start", "db", "film"])]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["start", "db", "keep", "film"])]
     pub curve: Option<PathBuf>,
     /// How far such a drive goes
     #[arg(long, value_name = "METRES", default_value_t = 200.0)]

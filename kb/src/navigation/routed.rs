@@ -497,6 +497,9 @@ impl Missions<'_> {
         let judged = self.judged(mission, (from.at, &goal), shape)?;
         let row = Row::new((number, mission), &outcome, Some(judged), radius);
         let row = self.weighed(row, &outcome.trip, before);
+        // being carried is not driving, however hard that were
+        let cost = row.cost.filter(|_| outcome.kidnapped.is_none());
+        let row = Row { cost, ..row };
         Ok(((row, journal.0, journal.1), said))
     }
 

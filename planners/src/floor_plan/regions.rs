@@ -106,8 +106,7 @@ impl Cutting {
     fn cut_doors(&mut self, face: &Face) {
         let chords = face.chords();
         let is_a_door = |place: &usize| {
-            let rivals = (0..chords.len()).filter(|other| other != place);
-            rivals.into_iter().all(|other| !face.do_hinder(chords[*place], chords[other]))
+            (0..chords.len()).all(|other| other == *place || !face.do_hinder(chords[*place], chords[other]))
         };
         let doors: Vec<usize> = (0..chords.len()).into_par_iter().filter(is_a_door).collect();
         for door in doors {

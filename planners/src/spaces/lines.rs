@@ -85,13 +85,13 @@ pub(super) fn lines(floor: &Occupancy) -> Vec<Line> {
         found.sort_unstable();
         found.into_iter()
     };
-    let (tips_ref, walls_ref) = (&tips, &walls);
+    let (tips, walls) = (&tips[..], &walls[..]);
     let lines = tips.par_iter().enumerate().flat_map_iter(|(number, tip)| {
         let near = move |p: Point| (2.0..=longest).contains(&tip.at.distance(p));
         let others = about(&tips_at, tip.at).filter(move |other| *other > number);
-        let others = others.map(move |other| &tips_ref[other]).filter(move |other| near(other.at));
+        let others = others.map(move |other| &tips[other]).filter(move |other| near(other.at));
         let to_tips = others.filter_map(move |other| line(floor, tip, other.at, Some(other)));
-        let feet = about(&walls_at, tip.at).map(move |wall| &walls_ref[wall]);
+        let feet = about(&walls_at, tip.at).map(move |wall| &walls[wall]);
         let feet = feet.map(move |wall| (wall, wall.nearest_to(tip.at)));
         let feet = feet.filter(move |(wall, foot)| *foot != wall.a && *foot != wall.b && near(*foot));
         to_tips.chain(feet.filter_map(move |(_, foot)| line(floor, tip, foot, None)))

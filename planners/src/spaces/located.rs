@@ -16,52 +16,11 @@ const BESIDE_M: f64 = 0.5;
 /// The spaces of a building, found by points.
 pub(crate) struct Located {
     numbers: Vec<f64>,
-    sides: Vec<Rows>,
+    /// The sides of all outlines, each with the place of its space.
+    sides: Vec<(usize, Segment)>,
     index: RectIndex,
-}
-
-/// The sides of an outline by the rows that they cross: a space may have as many as a building has corners.
-struct Rows {
-    least_y: f64,
-    rows: Vec<Vec<Segment>>,
-}
-
-/// A row is so high, metres.
-const ROW_M: f64 = 1.0;
-
-/// An outline has at most so many rows; what lies above is in the last one.
-const MOST_ROWS: usize = 100_000;
-
-impl Rows {
-    fn new(sides: impl Iterator<Item = Segment> + Clone) -> Self {
-        let least_y = sides.clone().map(|side| side.a.y).fold(f64::INFINITY, f64::min);
-        let mut all = Self { least_y, rows: Vec::new() };
-        for side in sides {
-            let bounds = side.bounds();
-            let (first, last) = (all.row(bounds.y0), all.row(bounds.y1));
-            if all.rows.len() <= last {
-                all.rows.resize(last + 1, Vec::new());
-            }
-            all.rows[first..=last].iter_mut().for_each(|row| row.push(side));
-        }
-        all
-    }
-
-    fn row(&self, y: f64) -> usize {
-        (((y - self.least_y) / ROW_M) as usize).min(MOST_ROWS)
-    }
-
-    fn encloses(&self, p: Point) -> bool {
-        let row = self.rows.get(self.row(p.y));
-        row.is_some_and(|row| polygon::encloses(row.iter().copied(), p))
-    }
-
-    /// Metres from a point to the nearest side that is no farther than [`BESIDE_M`]; infinite where none is.
-    fn distance(&self, p: Point) -> f64 {
-        let (first, last) = (self.row(p.y - BESIDE_M), self.row(p.y + BESIDE_M));
-        let near = self.rows.iter().take(last + 1).skip(first).flatten();
-        near.map(|side| side.distance(p)).filter(|off| *off <= BESIDE_M).fold(f64::INFINITY, f64::min)
-    }
+    /// No outline reaches farther to the right.
+    right: f64,
 }
 
 impl Located {
@@ -74,30 +33,41 @@ impl Located {
     }
 
     fn of(known: &Facts) -> Result<Self, String> {
-        let (mut numbers, mut sides, mut bounds) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut numbers, mut sides) = (Vec::new(), Vec::new());
         if let Some(table) = known.get(CLASS) {
             for (number, outline) in table.numbers("space")?.iter().zip(table.texts("outline")?) {
                 let (Some(number), Some(outline)) = (number, outline) else { continue };
                 let rings: Vec<Vec<[f64; 2]>> = serde_json::from_str(outline)
                     .map_err(|error| format!("the outline of space {number} is no list of rings: {error}"))?;
-                let rings = rings.iter().map(|ring| ring.iter().map(|[x, y]| Point::new(*x, *y)).collect());
-                let rings: Vec<Vec<Point>> = rings.collect();
+                for ring in rings {
+                    let ring: Vec<Point> = ring.into_iter().map(|[x, y]| Point::new(x, y)).collect();
+                    sides.extend(polygon::sides(&ring).map(|side| (numbers.len(), side)));
+                }
                 numbers.push(*number);
-                bounds.push(Rect::around(rings.iter().flatten().copied()).grown(BESIDE_M));
-                sides.push(Rows::new(rings.iter().flat_map(|ring| polygon::sides(ring))));
             }
         }
-        Ok(Self { numbers, sides, index: RectIndex::new(bounds) })
+        let bounds: Vec<Rect> = sides.iter().map(|(_, side)| side.bounds()).collect();
+        let right = bounds.iter().map(|bounds| bounds.x1).fold(f64::NEG_INFINITY, f64::max);
+        Ok(Self { numbers, sides, index: RectIndex::new(bounds), right })
     }
 
     /// The number of the space that a point lies in, or else of the nearest one that it lies beside.
     pub fn at(&self, p: Point) -> Option<f64> {
-        let near = self.index.at(p);
-        let within = near.iter().find(|&&space| self.sides[space].encloses(p));
-        let space = within.copied().or_else(|| {
-            let off = |space: &usize| self.sides[*space].distance(p);
-            let nearest = near.iter().copied().min_by(|one, two| off(one).total_cmp(&off(two)))?;
-            off(&nearest).is_finite().then_some(nearest)
+        let meeting = |rect: Rect| self.index.meeting(rect).map(|side| self.sides[side]);
+        // what encloses it has sides to its right
+        let mut beyond: Vec<(usize, Segment)> =
+            meeting(Rect::new(p.x, p.y, self.right.max(p.x), p.y)).collect();
+        beyond.sort_by_key(|(space, _)| *space);
+        let mut of_spaces = beyond.chunk_by(|one, other| one.0 == other.0);
+        let within = of_spaces
+            .find(|sides| polygon::encloses(sides.iter().map(|(_, side)| *side), p))
+            .map(|sides| sides[0].0);
+        let space = within.or_else(|| {
+            let off =
+                meeting(Rect::around([p]).grown(BESIDE_M)).map(|(space, side)| (side.distance(p), space));
+            let near = off.filter(|(off, _)| *off <= BESIDE_M);
+            near.min_by(|one, other| one.0.total_cmp(&other.0).then(one.1.cmp(&other.1)))
+                .map(|(_, space)| space)
         })?;
         Some(self.numbers[space])
     }

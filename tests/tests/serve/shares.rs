@@ -81,7 +81,8 @@ fn what_is_more_than_a_share_is_refused_and_others_are_answered() {
     assert_eq!((status, &refused["error"]["code"]), (429, &json!("service/share")), "{refused}");
     assert_eq!(service.ask_as(&[&other], "GET", "/api/health", None).0, 200);
     drop(held);
-    crate::within_a_second(|| service.ask_as(&[&crowd], "GET", "/api/health", None).0 == 200);
+    let is_answered = || service.ask_as(&[&crowd], "GET", "/api/health", None).0 == 200;
+    adit_tests::within("its share is free again", || is_answered().then_some(()));
 }
 
 /// Once, each of 4,096 clients that read nothing could hold 16 MB for ever.
@@ -98,7 +99,7 @@ fn who_does_not_read_is_hung_up_on() {
     };
     let before = connections();
     let unread: Vec<TcpStream> = (0..6).map(|_| send(&service.address, &crowd, &body, None)).collect();
-    crate::within_a_second(|| connections() == before + unread.len());
+    adit_tests::within("all are let in", || (connections() == before + unread.len()).then_some(()));
     let began = Instant::now();
     let question = json!({"query": "SELECT 1"});
     assert_eq!(service.ask_as(&[&other], "POST", "/api/sql", Some(&question)).0, 200);
