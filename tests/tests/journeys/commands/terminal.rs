@@ -97,7 +97,8 @@ impl Terminal {
             _ => command,
         };
         let port = if is_service { " --listen 127.0.0.1:0" } else { "" };
-        let mut bash = self.bash(&format!("exec {typed}{port}"));
+        // who starts the tests in the background may have had Ctrl-C ignored, which all that they start inherits
+        let mut bash = self.bash(&format!("exec env --default-signal=INT {typed}{port}"));
         let mut child = bash.process_group(0).stdout(Stdio::piped()).spawn().expect("bash runs");
         let mut said = String::new();
         BufReader::new(child.stdout.take().expect("piped")).read_line(&mut said).expect("it says something");
