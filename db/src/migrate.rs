@@ -93,6 +93,7 @@ pub(crate) const STEPS: &[Step] = &[
     Step::of_all(&[include_str!("../sql/v18/10-no-outline.sql")]),
     Step { all: &[], worlds: &[include_str!("../sql/v19/10-lost.sql")] },
     Step { all: &[], worlds: &[include_str!("../sql/v20/10-endings.sql")] },
+    Step { all: &[], worlds: &[include_str!("../sql/v21/10-robots.sql")] },
 ];
 
 /// The newest schema version.

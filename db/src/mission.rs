@@ -20,6 +20,8 @@ pub struct Mission {
     pub seed: String,
     /// The rule base.
     pub rules: String,
+    /// Which robot drove; its kind, where there is one only.
+    pub robot: Option<String>,
     /// Where it began.
     pub start: [f64; 2],
     /// Where it led.
@@ -79,8 +81,8 @@ pub async fn keep(connection: &mut SqliteConnection, mission: &Mission) -> Resul
         .await?;
     sqlx::query(
         "INSERT INTO missions (world, mission, seed, rules, start_x, start_y, goal_x, goal_y, obstacles, ending, length,
-                               optimum, seconds)
-         VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+                               optimum, seconds, robot)
+         VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
     )
     .bind(&mission.world)
     .bind(mission.mission)
@@ -95,6 +97,7 @@ pub async fn keep(connection: &mut SqliteConnection, mission: &Mission) -> Resul
     .bind(mission.length)
     .bind(mission.optimum)
     .bind(mission.seconds)
+    .bind(mission.robot.as_deref())
     .execute(&mut *connection)
     .await?;
     for (number, entry) in (1_i64..).zip(&mission.journal) {

@@ -11,6 +11,8 @@ use crate::worlds::are_kept;
 pub struct Decision {
     /// The rule base of the mission.
     pub rules: String,
+    /// Which robot drove, if that is kept.
+    pub robot: Option<String>,
     /// How the mission ended: a row of `endings`.
     pub ending: String,
     /// Where the mission led from and to.
@@ -58,7 +60,7 @@ pub async fn decision(
     at: f64,
 ) -> Result<Option<Decision>> {
     let found = sqlx::query_as(
-        "SELECT missions.rules, ending, start_x, start_y, goal_x, goal_y, length,
+        "SELECT missions.rules, robot, ending, start_x, start_y, goal_x, goal_y, length,
                 entry, time, state, next, action, x, y, detail
          FROM journal JOIN missions USING (world, mission)
          WHERE world = ? AND mission = ? AND event = 'state' AND time <= ?
@@ -67,24 +69,43 @@ pub async fn decision(
     let found = found.bind(world).bind(mission).bind(at);
     let found: Option<Columns> = found.fetch_optional(&mut *connection).await?;
     Ok(found.map(
-        |(rules, ending, x0, y0, x1, y1, length, entry, time, state, next, action, x, y, detail)| Decision {
-            rules,
-            ending,
-            ends: [[x0, y0], [x1, y1]],
-            length,
-            entry,
-            time,
-            state,
-            next,
-            action,
-            at: [x, y],
-            detail,
+        |(rules, robot, ending, x0, y0, x1, y1, length, entry, time, state, next, action, x, y, detail)| {
+            Decision {
+                rules,
+                robot,
+                ending,
+                ends: [[x0, y0], [x1, y1]],
+                length,
+                entry,
+                time,
+                state,
+                next,
+                action,
+                at: [x, y],
+                detail,
+            }
         },
     ))
 }
 
-type Columns =
-    (String, String, f64, f64, f64, f64, f64, i64, f64, String, String, String, f64, f64, Option<String>);
+type Columns = (
+    String,
+    Option<String>,
+    String,
+    f64,
+    f64,
+    f64,
+    f64,
+    f64,
+    i64,
+    f64,
+    String,
+    String,
+    String,
+    f64,
+    f64,
+    Option<String>,
+);
 
 /// What happened on a mission besides its changes of state, up to so many seconds after the robot was switched on.
 pub async fn events(

@@ -48,7 +48,7 @@ impl<'o> Kept<'o> {
     pub fn keep(&mut self, live: &Live, words: &str, (row, entries, decided): Journal) -> Result<Row> {
         let Of { world, bases, states, robot } = self.of;
         if let Some(store) = &mut self.store {
-            let record = record((world, bases), &row, states, &entries, decided);
+            let record = record((world, bases, robot), &row, states, &entries, decided);
             store.transaction(|tx| tx.keep_mission(&record))?;
         }
         // who is not kept has no number of its own, by which what was measured is told apart

@@ -46,7 +46,7 @@ pub fn run(args: &SimulateArgs) -> Result<bool> {
         return told(args, live);
     }
     let asked = live.asked();
-    let floor = &of_robot(&live, args.robot.as_deref())?.1;
+    let (robot, floor) = &of_robot(&live, args.robot.as_deref())?;
     let (world, rules) = (&floor.plan.name, rules_of(live.site()));
     if let Some(output) = &args.curve {
         let judges = Judges::new(&asked, &floor.told)?;
@@ -73,7 +73,7 @@ pub fn run(args: &SimulateArgs) -> Result<bool> {
     let missions = missions(args, floor, known)?;
     let filmed = filmed(args, &missions)?;
     let rows = if let Some(db) = &args.db {
-        kept((world, &rules), &stage, &judges, &missions, (db, args.keep))?
+        kept((world, &rules, robot), &stage, &judges, &missions, (db, args.keep))?
     } else {
         let bar = Bar::new("missions", missions.len() as u64);
         run_all(&stage, &judges, &missions, || bar.step())?
@@ -124,7 +124,7 @@ fn told(args: &SimulateArgs, mut live: Live) -> Result<bool> {
         refuse(judge.trouble())?;
         said.append(&mut judge.said);
         if let Some(store) = &mut store {
-            let record = record((&floor.plan.name, &rules), &row, &[], &entries, decided_by);
+            let record = record((&floor.plan.name, &rules, &robot), &row, &[], &entries, decided_by);
             store.transaction(|tx| tx.keep_mission(&record))?;
         }
         rows.push(row);
@@ -180,7 +180,7 @@ fn check_film(args: &SimulateArgs) -> Result<()> {
 
 /// Runs missions one after the other, each kept with its journal.
 fn kept(
-    (world, rules): (&str, &str),
+    (world, rules, robot): (&str, &str, &str),
     stage: &Stage<'_>,
     judges: &Judges,
     missions: &[Mission],
@@ -201,7 +201,7 @@ fn kept(
     let mut rows = Vec::with_capacity(missions.len());
     for (index, mission) in missions.iter().enumerate() {
         let (row, entries, decided_by) = journalled(stage, judges, (before + index + 1, mission), None)?;
-        let record = record((world, rules), &row, &[], &entries, decided_by);
+        let record = record((world, rules, robot), &row, &[], &entries, decided_by);
         store.transaction(|tx| tx.keep_mission(&record))?;
         // what was kept stays, whatever comes of the next one
         std::mem::take(&mut made).keep();

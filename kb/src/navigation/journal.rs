@@ -11,7 +11,7 @@ use super::missions::Row;
 use crate::plan::decided;
 
 pub fn record(
-    (world, rules): (&str, &str),
+    (world, rules, robot): (&str, &str, &str),
     row: &Row,
     shapes: &[String],
     entries: &[navigation::Entry],
@@ -36,6 +36,7 @@ pub fn record(
         mission: row.mission as i64,
         seed: row.truth.as_ref().map(|truth| truth.seed.to_string()).unwrap_or_default(),
         rules: rules.to_owned(),
+        robot: Some(row.robot.as_deref().unwrap_or(robot).to_owned()),
         start: row.start,
         goal: row.goal,
         obstacles: row.truth.as_ref().map_or(0, |truth| truth.obstacles as i64),

@@ -24,6 +24,9 @@ use crate::words::suggest::did_you_mean;
 pub struct Answer {
     pub world: String,
     pub mission: i64,
+    /// Which robot it was, if that is kept.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub robot: Option<String>,
     /// How it ended: `arrived`, `no_way`, `lost`, `silent` or `gave_up`.
     pub ending: String,
     /// Where the mission led from and to, metres.
@@ -156,6 +159,7 @@ fn explained((world, mission): (String, i64), decision: Decision, rules: Option<
     Ok(Answer {
         world,
         mission,
+        robot: decision.robot,
         ending: decision.ending,
         ends: decision.ends,
         length: decision.length,
@@ -177,9 +181,10 @@ impl Answer {
     pub fn lines(&self) -> Vec<String> {
         let action = if self.action == "none" { String::new() } else { format!(", {}", self.action) };
         let [[x0, y0], [x1, y1]] = self.ends;
+        let robot = self.robot.as_ref().map_or_else(String::new, |robot| format!(" by {robot}"));
         let mut lines = vec![
             format!(
-                "mission {} of {}, from ({x0:.2}, {y0:.2}) to ({x1:.2}, {y1:.2})",
+                "mission {} of {}{robot}, from ({x0:.2}, {y0:.2}) to ({x1:.2}, {y1:.2})",
                 self.mission, self.world
             ),
             format!("it {}, after {} m", ended(&self.ending), number(self.length)),

@@ -40,9 +40,12 @@ fn three_drive_together_hear_of_each_other_and_touch_nothing_and_the_same_seed_g
     // each of them is explained, and the database is whole
     for row in &first {
         let why = site.adit("why", &[&format!("mission {}", row["mission"])]).expect_status(0).stdout;
-        assert!(why.contains("it "), "{why}");
+        let by = format!(" by {}, from", row["robot"].as_str().expect("a robot"));
+        assert!(why.contains(&by) && why.contains("it "), "{why}");
     }
     site.adit("doctor", &[]).expect_status(0);
+    let kept: BTreeSet<String> = site.sqlite3("SELECT robot FROM missions").into_iter().collect();
+    assert!(kept.iter().map(String::as_str).eq(robots.iter().copied()), "{kept:?}");
     let again = rows(&TestSite::example("depot").built());
     let ends = |rows: &[Value]| {
         rows.iter().map(|row| (row["ending"].clone(), row["length"].clone())).collect::<Vec<_>>()

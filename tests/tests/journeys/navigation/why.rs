@@ -8,7 +8,7 @@ fn the_last_stop_is_explained_by_the_row_that_decided_and_by_what_kept_the_other
     run(&folder, "simulate", &["bed", "desk", "--db", "missions.db"]).expect_status(0);
     let answer = on(&folder, "why", "missions.db", &["1"]).expect_status(0).stdout;
     for said in [
-        "mission 1 of flat, ",
+        "mission 1 of flat by robot, ",
         "it arrived",
         "from (1.50, 1.50) to (",
         ": decide -> hold",
