@@ -10,6 +10,7 @@ mod funnel;
 mod layout;
 mod merged;
 mod mesh;
+mod near;
 pub mod network;
 mod noding;
 pub mod path;

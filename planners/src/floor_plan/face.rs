@@ -7,6 +7,7 @@ use rayon::prelude::*;
 use super::planar::Planar;
 use crate::geometry::tolerance::ROUNDING_M;
 use crate::geometry::{Point, RayGrid, Segment, cross};
+use crate::search::Csr;
 
 /// Angles that differ by less count as equal, radians.
 pub(super) const ANGLE: f64 = 1e-7;
@@ -87,6 +88,9 @@ impl Corner {
 /// region hardly grows by it.
 const MOST_SIDES: usize = 160;
 
+/// So many pairs of a corner and a point of a face are looked at.
+const MOST_SEEN: usize = 500_000;
+
 impl Face {
     /// The face of which these are the outlines.
     pub fn new(plan: &Planar, cycles: &[u32]) -> Self {
@@ -115,23 +119,47 @@ impl Face {
     }
 
     /// Pairs of corners that see and resolve one another.
-    pub fn chords(&self) -> Vec<[u32; 2]> {
+    ///
+    /// # Arguments
+    /// `near` has for each point others near it: of a large face these alone are looked at.
+    pub fn chords(&self, near: Option<&Csr<u32>>) -> Vec<[u32; 2]> {
+        let corner_at = self.corner_at();
         let of = |first: usize| {
             let a = &self.corners[first];
-            let others = (0_u32..).zip(&self.corners).skip(first + 1);
-            let seen = others.filter(move |(_, b)| {
+            let others = self.worth_a_look(a, near).into_iter().filter_map(|node| corner_at[node as usize]);
+            let seen = others.filter(|&second| {
+                let b = &self.corners[second as usize];
                 let (p, q) = (self.points[a.node as usize], self.points[b.node as usize]);
                 let there = q - p;
                 let back = -there;
-                a.may_be_resolved_along(there)
+                second as usize > first
+                    && a.may_be_resolved_along(there)
                     && b.may_be_resolved_along(back)
                     && a.place(there).is_some_and(|angle| a.is_resolved_by(angle))
                     && b.place(back).is_some_and(|angle| b.is_resolved_by(angle))
                     && self.is_seen(a.node, b.node)
             });
-            seen.map(move |(second, _)| [first as u32, second])
+            let mut seen: Vec<u32> = seen.collect();
+            seen.sort_unstable();
+            seen.into_iter().map(move |second| [first as u32, second])
         };
         (0..self.corners.len()).into_par_iter().flat_map_iter(of).collect()
+    }
+
+    /// For each point the corner that it is.
+    pub fn corner_at(&self) -> Vec<Option<u32>> {
+        let mut corner_at = vec![None; self.points.len()];
+        for (number, corner) in (0..).zip(&self.corners) {
+            corner_at[corner.node as usize] = Some(number);
+        }
+        corner_at
+    }
+
+    /// Whether one cut may resolve two corners: some that pass do not see one another.
+    pub fn may_be_joined(&self, [one, other]: [u32; 2]) -> bool {
+        let [one, other] = [one, other].map(|corner| &self.corners[corner as usize]);
+        let there = self.points[other.node as usize] - self.points[one.node as usize];
+        one.may_be_resolved_along(there) && other.may_be_resolved_along(-there)
     }
 
     /// Whether the straight way between two points meets no wall but at its ends.
@@ -154,16 +182,22 @@ impl Face {
         })
     }
 
-    pub fn look_around(&mut self) {
-        let mut corner_at = vec![None; self.points.len()];
-        for (number, corner) in (0_u32..).zip(&self.corners) {
-            corner_at[corner.node as usize] = Some(number);
-        }
+    /// Whether there are so many corners and points that not each is looked at from each.
+    pub fn is_large(&self) -> bool {
+        self.corners.len() * self.points.len() > MOST_SEEN
+    }
+
+    /// Finds the sights of all corners.
+    ///
+    /// # Arguments
+    /// `near` has for each point others near it: of a large face these alone are looked at.
+    pub fn look_around(&mut self, near: Option<&Csr<u32>>) {
+        let corner_at = self.corner_at();
         let look = |corner: &Corner| {
             let from = self.points[corner.node as usize];
             let mut sights = Vec::new();
-            for (node, &to) in (0_u32..).zip(&self.points) {
-                let direction = to - from;
+            for node in self.worth_a_look(corner, near) {
+                let direction = self.points[node as usize] - from;
                 let Some(angle) = corner.place(direction).filter(|_| node != corner.node) else { continue };
                 if self.is_seen(corner.node, node) {
                     let back = -direction;
@@ -189,16 +223,21 @@ impl Face {
         }
     }
 
-    /// Whether cuts between two pairs of corners cross, or have a corner in common.
-    pub fn do_hinder(&self, one: [u32; 2], other: [u32; 2]) -> bool {
-        let line = |ends: [u32; 2]| self.line(ends.map(|c| self.corners[c as usize].node));
-        one.iter().any(|corner| other.contains(corner)) || line(one).crosses(&line(other))
+    fn worth_a_look(&self, corner: &Corner, near: Option<&Csr<u32>>) -> Vec<u32> {
+        near.map_or_else(
+            || (0..self.points.len() as u32).collect(),
+            |near| near.of(corner.node as usize).to_vec(),
+        )
     }
 
-    /// Square metres on a side as long as the cut between two corners.
-    pub fn squared_length(&self, corners: [u32; 2]) -> f64 {
-        let [a, b] = corners.map(|corner| self.points[self.corners[corner as usize].node as usize]);
-        a.squared_distance(b)
+    /// Whether cuts between two pairs of corners cross, or have a corner in common.
+    pub fn do_hinder(&self, one: [u32; 2], other: [u32; 2]) -> bool {
+        one.iter().any(|corner| other.contains(corner)) || self.between(one).crosses(&self.between(other))
+    }
+
+    /// The cut between two corners.
+    pub fn between(&self, corners: [u32; 2]) -> Segment {
+        self.line(corners.map(|corner| self.corners[corner as usize].node))
     }
 
     fn line(&self, ends: [u32; 2]) -> Segment {

@@ -57,10 +57,7 @@ pub(super) struct Layout<'h> {
 impl<'h> Layout<'h> {
     /// Cuts in an order; what is not resolved then is cut along its first wall.
     pub fn new(face: &'h Face, order: &[Cut]) -> Self {
-        let mut corner_at = vec![None; face.points.len()];
-        for (number, corner) in (0..).zip(&face.corners) {
-            corner_at[corner.node as usize] = Some(number);
-        }
+        let corner_at = face.corner_at();
         let spokes = face.corners.iter().map(|corner| corner.bounds.to_vec()).collect();
         let (cuts, stops) = (Vec::new(), Vec::new());
         let mut layout = Self { face, points: face.points.clone(), cuts, stops, spokes, corner_at };

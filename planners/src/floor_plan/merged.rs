@@ -13,7 +13,7 @@ const FEWEST_ORDERS: usize = 20;
 const MOST_ORDERS: usize = 200;
 const DIAGONALS_TRIED: usize = 4_000;
 
-type Cdt = ConstrainedDelaunayTriangulation<Point2<f64>>;
+pub(super) type Cdt = ConstrainedDelaunayTriangulation<Point2<f64>>;
 
 /// Triangles merged in the best of some orders.
 pub(super) struct Merged {
@@ -67,7 +67,7 @@ pub(super) fn merged(face: &Face) -> Option<Merged> {
     Some(Merged { regions, diagonals: kept.iter().map(ends).collect::<Option<_>>()? })
 }
 
-fn triangulate(face: &Face) -> Option<(Cdt, Vec<FixedVertexHandle>)> {
+pub(super) fn triangulate(face: &Face) -> Option<(Cdt, Vec<FixedVertexHandle>)> {
     let mut cdt = Cdt::new();
     let insert = |point: &crate::geometry::Point| cdt.insert(Point2::new(point.x, point.y)).ok();
     let handles: Vec<FixedVertexHandle> = face.points.iter().map(insert).collect::<Option<_>>()?;

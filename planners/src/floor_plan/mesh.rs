@@ -9,7 +9,7 @@ use super::plan::FloorPlan;
 use super::regions::Regions;
 use crate::geometry::polygon::{self, is_in_convex};
 use crate::geometry::tolerance::{ROUNDING_M, SNAP_M};
-use crate::geometry::{Point, Segment};
+use crate::geometry::{Point, Rect, Segment};
 use crate::search::Csr;
 
 type Cdt = ConstrainedDelaunayTriangulation<Point2<f64>>;
@@ -53,7 +53,7 @@ impl Mesh {
     pub fn new(plan: &FloorPlan, regions: &Regions, disc: &Disc) -> Self {
         let grown = disc.grown(plan);
         let cdt = triangulate(&grown, regions);
-        let region_of = regions_of_faces(&cdt, &grown, plan, regions);
+        let region_of = regions_of_faces(&cdt, &grown, regions);
         let mut order: Vec<u32> =
             (0..cdt.num_all_faces() as u32).filter(|&f| region_of[f as usize] != NONE).collect();
         order.sort_by_key(|&face| region_of[face as usize]);
@@ -157,7 +157,14 @@ fn rings(grown: &MultiPolygon) -> impl Iterator<Item = &LineString> {
 }
 
 /// For each face the region that it lies in; [`NONE`] where the centre cannot be.
-fn regions_of_faces(cdt: &Cdt, grown: &MultiPolygon, plan: &FloorPlan, regions: &Regions) -> Vec<u32> {
+fn regions_of_faces(cdt: &Cdt, grown: &MultiPolygon, regions: &Regions) -> Vec<u32> {
+    let rings: Vec<(Rect, &LineString)> = rings(grown)
+        .map(|ring| (Rect::around(ring.coords_iter().map(|c| Point::new(c.x, c.y))), ring))
+        .collect();
+    let is_grown = |p: Point| {
+        let about = rings.iter().filter(|(bounds, _)| bounds.contains(p));
+        about.filter(|(_, ring)| is_inside(ring, p)).count() % 2 == 1
+    };
     let mut region_of = vec![NONE; cdt.num_all_faces()];
     let mut is_known = vec![false; cdt.num_all_faces()];
     for first in cdt.inner_faces() {
@@ -177,11 +184,8 @@ fn regions_of_faces(cdt: &Cdt, grown: &MultiPolygon, plan: &FloorPlan, regions: 
         }
         let largest = part.iter().max_by(|a, b| a.area().total_cmp(&b.area()));
         let middle = largest.map_or(Point::default(), |face| at(face.center()));
-        let is_grown = rings(grown).filter(|ring| is_inside(ring, middle)).count() % 2 == 1;
-        if is_grown || !plan.is_free(middle) {
-            continue;
-        }
-        if let Some(region) = regions.regions.iter().position(|region| region.contains(middle)) {
+        let region = regions.regions.iter().position(|region| region.contains(middle));
+        if let Some(region) = region.filter(|_| !is_grown(middle)) {
             for face in part {
                 region_of[face.fix().index()] = region as u32;
             }
@@ -198,12 +202,10 @@ fn is_inside(ring: &LineString, p: Point) -> bool {
 /// The opening on an edge of the mesh, seen from its left side, if that is the doorway's first region.
 fn opening(regions: &Regions, ends: [Point; 2], sides: [(usize, u32); 2]) -> Option<Opening> {
     let middle = ends[0].midpoint(ends[1]);
-    let is_own = |doorway: &&(usize, &super::regions::Doorway)| {
-        let (_, doorway) = doorway;
+    let is_own = |(_, doorway): &(usize, &super::regions::Doorway)| {
         doorway.regions == sides.map(|side| side.0)
             && middle.distance(middle.nearest_on(doorway.from, doorway.to)) <= SNAP_M
     };
-    let all: Vec<_> = regions.doorways.iter().enumerate().collect();
-    let &(doorway, _) = all.iter().find(is_own)?;
+    let (doorway, _) = regions.doorways.iter().enumerate().find(is_own)?;
     Some(Opening { doorway, ends, triangles: sides.map(|side| side.1) })
 }

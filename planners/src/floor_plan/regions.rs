@@ -4,12 +4,13 @@ use rayon::prelude::*;
 
 use super::FloorPlan;
 use super::face::Face;
-use super::layout::{Cut, Layout};
+use super::layout::Layout;
+use super::near::near;
 use super::planar::{Edge, Planar};
-use super::search::best_order;
-use crate::geometry::Point;
+use super::search::best_layout;
 use crate::geometry::polygon::is_in_convex;
 use crate::geometry::tolerance::{ROUNDING_M, SNAP_M};
+use crate::geometry::{Point, RayGrid};
 
 /// A convex part of the free space.
 #[derive(Clone, Debug, PartialEq)]
@@ -66,7 +67,6 @@ struct Cutting {
 impl Regions {
     /// Cuts free space into as few convex regions as are found; of as few, the largest is as large as is found, then
     /// the next.
-    ///
     pub fn of(plan: &FloorPlan) -> Self {
         let space = plan.space();
         let (plan, mut free_half) = (&space.plan, space.free_half.clone());
@@ -79,10 +79,13 @@ impl Regions {
         free_half.resize(2 * cutting.lines.len(), true);
         let plan = Planar::new(cutting.points.clone(), cutting.lines.clone());
         let mut faces = non_convex_faces(&plan, &free_half);
-        faces.par_iter_mut().for_each(Face::look_around);
-        let orders: Vec<Vec<Cut>> = faces.par_iter().map(best_order).collect();
-        for (face, order) in faces.iter().zip(&orders) {
-            cutting.cut_face(face, &Layout::new(face, order));
+        faces.par_iter_mut().for_each(|face| {
+            let near = near(face);
+            face.look_around(near.as_ref());
+        });
+        let layouts: Vec<Layout<'_>> = faces.par_iter().map(best_layout).collect();
+        for (face, layout) in faces.iter().zip(&layouts) {
+            cutting.cut_face(face, layout);
         }
         free_half.resize(2 * cutting.lines.len(), true);
         cutting.regions(&free_half, count)
@@ -104,9 +107,16 @@ impl Cutting {
     /// Cuts between two corners that resolve each other and nothing else: the doors between rooms. What is left are
     /// smaller faces, which can be cut one by one.
     fn cut_doors(&mut self, face: &Face) {
-        let chords = face.chords();
+        let chords = face.chords(near(face).as_ref());
+        let mut ends = vec![0_u32; face.corners.len()];
+        for &corner in chords.iter().flatten() {
+            ends[corner as usize] += 1;
+        }
+        let grid = RayGrid::new(chords.iter().map(|&chord| face.between(chord)).collect());
         let is_a_door = |place: &usize| {
-            (0..chords.len()).all(|other| other == *place || !face.do_hinder(chords[*place], chords[other]))
+            let way = grid.segments()[*place];
+            let is_alone = chords[*place].iter().all(|&corner| ends[corner as usize] == 1);
+            is_alone && grid.beside(way).all(|other| !way.crosses(&grid.segments()[other]))
         };
         let doors: Vec<usize> = (0..chords.len()).into_par_iter().filter(is_a_door).collect();
         for door in doors {

@@ -3,11 +3,14 @@
 use std::cmp::Ordering;
 
 use rayon::prelude::*;
+use rstar::primitives::Line;
+use rstar::{RTree, RTreeObject};
 
 use super::face::Face;
 use super::layout::{Cut, Layout};
 use super::merged::merged;
 use crate::geometry::tolerance::ROUNDING;
+use crate::geometry::{Point, Segment};
 use crate::random::Xorshift;
 
 /// Layouts are tried in rounds; so many at least, and so many more for each corner.
@@ -21,35 +24,45 @@ const MOST_LOOKS: usize = 100_000_000;
 /// Of more pairs of corners it is not counted which hinder which: a scan has tens of thousands.
 const MOST_PAIRS: usize = 4_000;
 
-/// The order of cuts that was found best.
-pub(super) fn best_order(face: &Face) -> Vec<Cut> {
-    let mut best = first_order(face);
-    let mut areas = Layout::new(face, &best).areas();
-    let most = match merged(face) {
-        Some(merged) => {
-            let order = order_of(face, &merged.diagonals);
-            let found = Layout::new(face, &order).areas();
-            if compare(&found, &areas, merged.regions) == Ordering::Greater {
-                (best, areas) = (order, found);
-            }
-            merged.regions
-        }
-        None => areas.len(),
+/// The cuts that were found best.
+pub(super) fn best_layout(face: &Face) -> Layout<'_> {
+    let laid = |order: Vec<Cut>| {
+        let layout = Layout::new(face, &order);
+        let areas = layout.areas();
+        Laid { order, layout, areas }
     };
+    let (mut best, by_merging) = rayon::join(
+        || laid(first_order(face)),
+        || merged(face).map(|merged| (laid(order_of(face, &merged.diagonals)), merged.regions)),
+    );
+    let mut most = best.areas.len();
+    if let Some((other, regions)) = by_merging {
+        most = regions;
+        if compare(&other.areas, &best.areas, most) == Ordering::Greater {
+            best = other;
+        }
+    }
     let mut random = Xorshift::new();
     let trials = TRIALS + TRIALS_PER_CORNER * face.corners.len();
     let looks = face.corners.len() * (face.points.len() + face.sides.len());
     for _ in 0..trials.min(MOST_TRIALS).min(MOST_LOOKS / looks.max(1)) {
-        let mut other = best.clone();
+        let mut order = best.order.clone();
         for _ in 0..=random.below(2) {
-            change(face, &mut other, &mut random);
+            change(face, &mut order, &mut random);
         }
-        let found = Layout::new(face, &other).areas();
-        if compare(&found, &areas, most) != Ordering::Less {
-            (best, areas) = (other, found);
+        let other = laid(order);
+        if compare(&other.areas, &best.areas, most) != Ordering::Less {
+            best = other;
         }
     }
-    best
+    best.layout
+}
+
+/// Cuts in an order, and the areas of the regions that they make, the largest first.
+struct Laid<'f> {
+    order: Vec<Cut>,
+    layout: Layout<'f>,
+    areas: Vec<f64>,
 }
 
 /// Greater is better: no more regions than `most`, then the larger one at the first place where they differ.
@@ -105,12 +118,21 @@ fn least_hindering(face: &Face, pairs: &[[u32; 2]]) -> Vec<usize> {
 
 /// Pairs that do not hinder one another, the shortest first: they mostly hinder few.
 fn shortest(face: &Face, pairs: &[[u32; 2]]) -> Vec<usize> {
-    let mut left: Vec<(f64, usize)> =
-        pairs.iter().enumerate().map(|(place, &ends)| (face.squared_length(ends), place)).collect();
+    let cut = |place: usize| face.between(pairs[place]);
+    let mut left: Vec<(f64, usize)> = (0..pairs.len()).map(|place| (cut(place).length(), place)).collect();
     left.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-    let mut order: Vec<usize> = Vec::new();
+    let (mut order, mut is_taken) = (Vec::new(), vec![false; face.corners.len()]);
+    let mut chosen: RTree<Line<[f64; 2]>> = RTree::new();
     for (_, place) in left {
-        if order.iter().all(|&chosen| !face.do_hinder(pairs[chosen], pairs[place])) {
+        let way = cut(place);
+        let line = Line::new([way.a.x, way.a.y], [way.b.x, way.b.y]);
+        let crosses = |other: &Line<[f64; 2]>| {
+            way.crosses(&Segment::from([other.from, other.to].map(|[x, y]| Point::new(x, y))))
+        };
+        let is_free = pairs[place].iter().all(|&corner| !is_taken[corner as usize]);
+        if is_free && !chosen.locate_in_envelope_intersecting(line.envelope()).any(crosses) {
+            chosen.insert(line);
+            pairs[place].iter().for_each(|&corner| is_taken[corner as usize] = true);
             order.push(place);
         }
     }

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use adit_planners::floor_plan::{FloorPlan, Region, Regions, read_floor_plan};
+use adit_planners::floor_plan::{Drawn, FloorPlan, Region, Regions, read_floor_plan};
 use adit_planners::geometry::Point;
 use serde_json::Value;
 
@@ -84,6 +84,30 @@ fn regions_of_random_plans_are_convex_disjoint_free_of_walls_and_cover() {
         let solid: f64 = drawing.solids.iter().map(|solid| shoelace(solid)).sum();
         check(&FloorPlan::new(drawing).unwrap(), shoelace(&outer) - solid);
     }
+}
+
+/// So many corners that not each is looked at from each.
+#[test]
+fn regions_of_a_hall_of_many_pillars_are_so_too_and_no_more_than_merged_triangles() {
+    let (mut dice, side) = (Dice::new(3), 20.0);
+    let rect = |x0: f64, y0: f64, x1: f64, y1: f64| {
+        vec![Point::new(x0, y0), Point::new(x1, y0), Point::new(x1, y1), Point::new(x0, y1)]
+    };
+    let pillars = (0..400).map(|pillar| {
+        let (x, y) = (f64::from(pillar % 20) + 0.1, f64::from(pillar / 20) + 0.1);
+        let mut part = || (10.0 * dice.between(0.0, 0.4)).round() / 20.0;
+        rect(x + part(), y + part(), x + 0.3 + part(), y + 0.3 + part())
+    });
+    let solids: Vec<Vec<Point>> = pillars.collect();
+    let outer = rect(0.0, 0.0, side, side);
+    let walls = edges(&outer).map(|(a, b)| [a, b]).collect();
+    let solid: f64 = solids.iter().map(|solid| shoelace(solid)).sum();
+    let plan = FloorPlan::new(Drawn { walls, solids, ..Drawn::default() }).unwrap();
+    check(&plan, side * side - solid);
+    let triangles = Triangles::new(&plan);
+    let merged = (0..20).map(|_| triangles.merged(&mut dice).len()).min().unwrap();
+    let own = Regions::of(&plan).regions.len();
+    assert!(own <= merged, "{own} regions, merged {merged}");
 }
 
 #[test]
