@@ -8,7 +8,12 @@ use clap::Args;
 use super::args::SiteArgs;
 use super::build::{open, unbuilt};
 use super::output::{as_json, json, line, problems};
-use crate::error::Result;
+use crate::error::{Code, Finding, Result};
+use crate::knowledge::KnowledgeBase;
+use crate::plan::rules::{Kind, load_over};
+use crate::site::Rooms;
+use crate::site::base::Base;
+use crate::site::driving::NAVIGATION;
 use crate::words::number::counted;
 
 #[derive(Args, Debug)]
@@ -27,7 +32,9 @@ pub fn check(args: &SiteArgs) -> Result<bool> {
         if !knowledge.site().has_rooms() {
             what = "rules and tables";
         }
-        knowledge.check()
+        let mut found = knowledge.check()?;
+        found.extend(of_missions(&knowledge)?);
+        Ok(found)
     });
     let (found, sound) = match checked {
         Ok(found) => {
@@ -48,6 +55,23 @@ pub fn check(args: &SiteArgs) -> Result<bool> {
         }
     }
     Ok(sound)
+}
+
+/// What is to be said of the rules in the folder `navigation`, by which robots of a site that is cut by state drive.
+fn of_missions(knowledge: &KnowledgeBase) -> Result<Vec<Finding>> {
+    let site = knowledge.site();
+    if site.rooms == Rooms::ByState {
+        let (_, _, remarks) = load_over(Kind::Navigation, &site.folder)?;
+        return Ok(remarks.into_iter().map(Finding::note).collect());
+    }
+    let folder = site.folder.join(NAVIGATION);
+    let is_rule_base = knowledge.rule_bases().contains(&Base::Folder(folder.clone()));
+    if !folder.is_dir() || is_rule_base {
+        return Ok(Vec::new());
+    }
+    let message = format!("{} is not read: no robot drives missions by it here", folder.display());
+    let help = "it lies over the rules of missions where rooms are cut by state; `rules` in site.toml names folders of rules";
+    Ok(vec![Finding::warning(Code::RuleNotRead, message, Some(help.to_owned()))])
 }
 
 /// Examines the database; `false` where it is damaged.

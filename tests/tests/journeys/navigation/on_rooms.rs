@@ -129,6 +129,11 @@ fn rules_in_the_folder_navigation_of_the_site_drive_it() {
         "rule \"what\" priority 1\n    each situation in SITUATIONS\n    then { situation.nxt = 1; }\n+",
     );
     site.adit("simulate", &["--robot", "crawler"]).expect_status(2).complains(&["own.rhai", "4"]);
+    site.adit("check", &[]).expect_status(1).complains(&["own.rhai", "4"]);
+    // where nobody drives by them, that is said
+    let paper = TestSite::example("paper").built();
+    paper.write("navigation/own.rhai", cautious);
+    paper.adit("check", &[]).complains(&["navigation is not read", "no robot drives missions by it here"]);
 }
 
 #[test]
