@@ -108,13 +108,20 @@ fn summary(rows: &[Row]) {
             rows.iter().filter_map(|row| Some(row.truth.as_ref()?.worst_error)).collect(),
         ),
     ];
+    // of few, the shares are one and the same
+    let shares: &[(&str, f64)] = match rows.len() {
+        0 | 1 => &[("value", 1.0)],
+        2..=10 => &[("median", 0.5), ("worst", 1.0)],
+        _ => &[("median", 0.5), ("90 %", 0.9), ("99 %", 0.99), ("worst", 1.0)],
+    };
     let spread = |(what, mut values): (&str, Vec<f64>)| {
         values.sort_by(f64::total_cmp);
         let at = |share: f64| values.get(((values.len() as f64 - 1.0) * share).round() as usize);
         let figure = |share| at(share).map_or_else(|| "-".to_owned(), |value| format!("{value:.3}"));
-        vec![what.to_owned(), figure(0.5), figure(0.9), figure(0.99), figure(1.0)]
+        std::iter::once(what.to_owned()).chain(shares.iter().map(|(_, share)| figure(*share))).collect()
     };
-    table(&["", "median", "90 %", "99 %", "worst"], spreads.map(spread));
+    let heads: Vec<&str> = std::iter::once("").chain(shares.iter().map(|(head, _)| *head)).collect();
+    table(&heads, spreads.map(spread));
 }
 
 /// Whether all ended as they should, as far as that is judged.

@@ -327,8 +327,10 @@ impl<'b> Underway<'b> {
 
     /// Lets time pass for a robot that stands, without an errand, for one reading.
     pub fn rest(&mut self) {
-        // what it senses is for nobody
-        drop(self.body.sense());
+        // of what it senses, the time alone is for anybody
+        if let Ok(sensed) = self.body.sense() {
+            self.navigator.rests_until(sensed.time_s);
+        }
     }
 
     /// How it went, since it set out for its goal.

@@ -382,6 +382,13 @@ impl<'b> Navigator<'b> {
         self.model.estimate().pose
     }
 
+    /// Takes note that time passed while nothing was asked of the robot, so that what comes next begins then.
+    pub(super) fn rests_until(&mut self, time_s: f64) {
+        if let Some(sensed) = &mut self.sensed {
+            sensed.time_s = time_s;
+        }
+    }
+
     /// Seconds by the body's clock.
     pub(super) fn time_s(&self) -> f64 {
         self.sensed.as_ref().map_or(0.0, |sensed| sensed.time_s)
