@@ -158,9 +158,12 @@ impl<'s> Vocabulary<'s> {
         let known = self.schema.kind(class, name).is_some()
             || of_rules.is_some_and(|names| names.contains(name))
             || self.key(file, class).iter().any(|part| part == name);
+        if known {
+            return true;
+        }
         let names = of_rules.into_iter().flatten().copied();
         let meant = nearest(name, self.schema.properties(class).chain(names));
-        if known || (meant.is_none() && !self.schema.has(class)) {
+        if meant.is_none() && !self.schema.has(class) {
             return true;
         }
         let message = format!("class {class} has no property `{name}`, and no rule sets or reads one");
