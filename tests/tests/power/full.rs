@@ -35,6 +35,9 @@ fn rule(factor: f64, version: &Value) -> Value {
     json!({"text": text, "version": version})
 }
 
+/// So often an attempt is made again, since something else changed meanwhile.
+const MOST_FOLLOWED: usize = 4;
+
 type Request<'r> = (&'r str, &'r str, &'r Value);
 
 const EDIT: (&str, &str) = ("POST", "/api/edits");
@@ -55,8 +58,11 @@ fn refused(site: &TestSite, disk: &Recorder, service: &Service, request: Request
         };
         let mut before = content(site);
         let (mut status, mut answer) = attempt();
-        if status != 200 && content(site) != before {
-            // routes that followed the edit before, meanwhile
+        // on a busy machine routes follow the edit before, meanwhile
+        for _ in 0..MOST_FOLLOWED {
+            if status == 200 || content(site) == before {
+                break;
+            }
             before = settled(site);
             (status, answer) = attempt();
         }
@@ -67,7 +73,12 @@ fn refused(site: &TestSite, disk: &Recorder, service: &Service, request: Request
         let said = answer["error"]["message"].as_str().unwrap();
         let is_clear = ["disk", "No space left on device"].iter().any(|words| said.contains(words));
         assert!(is_clear, "{said}");
-        assert!(content(site) == before, "{request:?}, refused at write {first}: {answer}");
+        let after = content(site);
+        let changed = before.0.text.lines().zip(after.0.text.lines()).find(|(before, after)| before != after);
+        assert!(
+            after == before,
+            "{request:?}, refused at write {first}: {answer}; first of what changed: {changed:?}"
+        );
         let next = 2.0 + number as f64 / 16.0;
         let (status, answer) = service.ask("POST", "/api/edits", Some(&set("STAND", next)));
         assert_eq!(status, 200, "the edit after {request:?} was refused at write {first}: {answer}");
