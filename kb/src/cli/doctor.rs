@@ -62,7 +62,7 @@ fn of_missions(knowledge: &KnowledgeBase) -> Result<Vec<Finding>> {
     let site = knowledge.site();
     if site.rooms == Rooms::ByState {
         let (_, _, remarks) = load_over(Kind::Navigation, &site.folder)?;
-        return Ok(remarks.into_iter().map(Finding::note).collect());
+        return Ok(remarks);
     }
     let folder = site.folder.join(NAVIGATION);
     let is_rule_base = knowledge.rule_bases().contains(&Base::Folder(folder.clone()));

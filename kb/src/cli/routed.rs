@@ -97,8 +97,8 @@ impl Setting {
         }
         let ground = Ground::of(&live.fork(), robot)?;
         let (rules, bases, remarks) = load_over(Kind::Navigation, &live.site().site().folder)?;
-        for text in &remarks {
-            remark(text);
+        for finding in &remarks {
+            remark(&finding.to_string());
         }
         let bases = bases.iter().map(Base::name).collect::<Vec<_>>().join("\n");
         Ok(Self { ground, rules, bases, name: live.site().site().name.clone() })

@@ -83,16 +83,16 @@ pub fn load(kind: Kind, name: &str, beside: &Path) -> Result<(Arc<RuleBase>, Vec
     let (base, mut remarks) = vetted(kind, found(kind, name, beside)?, is_shipped, None)?;
     // the shipped ones are as they are meant
     if !is_shipped {
-        remarks.extend(lint::not_read(&beside.join(name)).iter().map(ToString::to_string));
+        remarks.extend(lint::not_read(&beside.join(name)));
     }
-    Ok((base, remarks))
+    Ok((base, remarks.iter().map(ToString::to_string).collect()))
 }
 
 /// Reads the shipped rule base of a kind, with the folder of its name beside it over it, where there is one.
 ///
 /// # Returns
-/// The rules, which bases they are of, the lowest first, and what is not wrong but worth a look, as text.
-pub fn load_over(kind: Kind, beside: &Path) -> Result<(Arc<RuleBase>, Vec<Base>, Vec<String>)> {
+/// The rules, which bases they are of, the lowest first, and what is not wrong but worth a look.
+pub fn load_over(kind: Kind, beside: &Path) -> Result<(Arc<RuleBase>, Vec<Base>, Vec<Finding>)> {
     let name = kind.shipped()[0];
     let folder = beside.join(name);
     let mut bases = kind.bases(name).unwrap_or_default();
@@ -103,7 +103,7 @@ pub fn load_over(kind: Kind, beside: &Path) -> Result<(Arc<RuleBase>, Vec<Base>,
     let (base, mut remarks) =
         vetted(kind, rules::load_bases(&bases)?, !is_own, Some(&format!("rules/{name}/")))?;
     if is_own {
-        remarks.extend(lint::not_read(&folder).iter().map(ToString::to_string));
+        remarks.extend(lint::not_read(&folder));
     }
     Ok((base, bases, remarks))
 }
@@ -117,7 +117,7 @@ fn vetted(
     rules: Rules,
     is_shipped: bool,
     shipped_in: Option<&str>,
-) -> Result<(Arc<RuleBase>, Vec<String>)> {
+) -> Result<(Arc<RuleBase>, Vec<Finding>)> {
     let schema = &kind.schema();
     let Rules { base, tests, .. } = rules;
     let (errors, warnings): (Vec<_>, Vec<_>) =
@@ -141,8 +141,8 @@ fn vetted(
         Vec::new()
     } else {
         let unread = lint::unread_but(&base, kind.asked(), is_own);
-        let warnings = warnings.iter().filter(|warning| is_own(&warning.file)).map(ToString::to_string);
-        warnings.chain(unread.iter().map(ToString::to_string)).collect()
+        let warnings = warnings.into_iter().filter(|warning| is_own(&warning.file)).map(Finding::from);
+        warnings.chain(unread).collect()
     };
     Ok((Arc::new(base), remarks))
 }

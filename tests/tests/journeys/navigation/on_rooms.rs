@@ -124,6 +124,10 @@ fn rules_in_the_folder_navigation_of_the_site_drive_it() {
     let ends =
         site.adit("simulate", &["--robot", "crawler", "--missions", "1", "--json"]).expect_status(1).json();
     assert_eq!((&ends[0]["ending"], &ends[0]["right"]), (&"no_way".into(), &false.into()), "{ends}");
+    // it is checked as the site's other rules are
+    site.adit("check", &[]).expect_status(0);
+    site.write("navigation/own.rhai.txt", "");
+    site.adit("check", &[]).expect_status(1).complains(&["own.rhai.txt is not read"]);
     site.write(
         "navigation/own.rhai",
         "rule \"what\" priority 1\n    each situation in SITUATIONS\n    then { situation.nxt = 1; }\n+",
