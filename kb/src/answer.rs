@@ -107,6 +107,7 @@ impl State {
             ground: Ground::Known(&self.world, &self.gauge),
             within: self.within,
             ends_in: [None; 2],
+            start_facing: None,
         }
     }
 }

@@ -3,12 +3,14 @@
 use std::fmt;
 
 use crate::pose::Pose;
+use crate::rim::Rim;
 
-/// A round robot with something that measures how far it is to what stands about it (a sonar that turns, a ring of them, a planar
-/// lidar), wheels or legs that are counted, and perhaps a skirt that feels contact. One that can change its shape is round in each.
+/// A robot with something that measures how far it is to what stands about it (a sonar that turns, a ring of them, a planar lidar),
+/// wheels or legs that are counted, and perhaps a skirt that feels contact. It is round, or a rectangle that keeps its facing and
+/// moves any way in it; one that can change its shape is one of them in each.
 pub trait Body {
-    /// In the shape in which it is.
-    fn radius_m(&self) -> f64;
+    /// In the shape in which it is; where it is longer than wide, along its heading.
+    fn rim(&self) -> Rim;
 
     /// Into how many directions it measures, all around: so many readings are a whole scan.
     fn directions(&self) -> usize;
@@ -33,6 +35,8 @@ pub enum Command {
     /// To go straight: ahead, or back where the distance is below 0. It ends early where the skirt touches something.
     Move {
         distance_m: f64,
+        /// Where that is: radians from the heading, counter-clockwise. A body that is round goes where it looks: 0.
+        bearing: f64,
         /// How fast, metres a second. The body's own greatest speed is not exceeded.
         speed_m_s: f64,
     },

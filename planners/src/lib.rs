@@ -27,6 +27,7 @@ pub mod prime_areas;
 pub mod random;
 pub mod read;
 pub mod rect_index;
+pub mod rim;
 pub mod rooms;
 pub mod routes;
 pub mod search;

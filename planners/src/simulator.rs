@@ -15,14 +15,13 @@
 //!
 //! let wall = Segment::new(Point::new(2.0, -5.0), Point::new(2.0, 5.0));
 //! let mut robot = Simulator::new(&[wall], Vec::new(), Settings::exact(), Pose::default(), 1)?;
-//! robot.command(Command::Move { distance_m: 3.0, speed_m_s: 0.5 });
+//! robot.command(Command::Move { distance_m: 3.0, bearing: 0.0, speed_m_s: 0.5 });
 //! let sensed = std::iter::repeat_with(|| robot.sense().unwrap()).find(|sensed| !sensed.is_busy).unwrap();
 //! assert_eq!(sensed.contact.unwrap().bearing, 0.0);
 //! assert!((robot.pose().at.x - 1.75).abs() < 1e-8);
 //! # Ok::<(), adit_planners::simulator::SimulationError>(())
 //! ```
 
-mod disc;
 mod error;
 mod film;
 mod obstacle;
@@ -37,14 +36,14 @@ pub use shape::{Shape, Shapes};
 
 use std::f64::consts::TAU;
 
-use disc::{HAIR_M, Touch, touch};
 use obstacle::Mover;
 
 use crate::body::{Body, Command, Contact, Reading, Sensed, Silence};
 use crate::geometry::tolerance::SNAP_M;
-use crate::geometry::{Point, RayGrid, Segment, polygon};
+use crate::geometry::{Point, RayGrid, Rect, Segment, polygon};
 use crate::pose::{Pose, wrapped};
 use crate::random::Random;
+use crate::rim::{Rim, Touch};
 
 /// A robot in a building, with the truth about it.
 #[derive(Clone, Debug)]
@@ -86,6 +85,7 @@ enum Task {
     /// Wheels go as far as they count; `scale` is how far that really is.
     Move {
         left_m: f64,
+        bearing: f64,
         speed_m_s: f64,
         scale: f64,
     },
@@ -149,9 +149,18 @@ impl Simulator {
         self.shape
     }
 
-    /// The radius of the robot, metres; while it changes its shape, of the wider one.
-    pub fn widest_m(&self) -> f64 {
-        self.radius_m().max(self.shapes.all[self.becoming()].radius_m)
+    /// Where the robot's rim is, the middle being the origin; while it changes its shape, that of the larger one.
+    pub fn widest(&self) -> Rim {
+        let [now, then] = [self.shape, self.becoming()].map(|shape| self.rim_in(shape));
+        if then.outer_m() > now.outer_m() { then } else { now }
+    }
+
+    fn rim_in(&self, shape: usize) -> Rim {
+        self.shapes.all[shape].rim.turned(self.pose.heading)
+    }
+
+    fn placed(&self) -> Rim {
+        self.rim_in(self.shape)
     }
 
     /// The shape into which it changes; the one in which it is, where it does not.
@@ -165,12 +174,12 @@ impl Simulator {
     /// How deep something is within the robot, metres; below 0 where there is a gap. While it changes its shape, in either one.
     pub fn overlap_m(&self) -> f64 {
         let at = self.pose.at;
-        let sides = self.obstacles().flatten().chain(self.walls());
-        let nearest = sides.map(|side| side.distance(at)).fold(f64::INFINITY, f64::min);
         let in_shape = |shape: usize| {
-            let Shape { radius_m, overhead, .. } = &self.shapes.all[shape];
-            let above = overhead.iter().map(|low| low.signed_distance(at)).fold(f64::INFINITY, f64::min);
-            radius_m - nearest.min(above)
+            let rim = self.rim_in(shape);
+            let sides = self.obstacles().flatten().chain(self.walls());
+            let nearest = sides.map(|side| rim.distance(at, side)).fold(f64::INFINITY, f64::min);
+            let above = self.shapes.all[shape].overhead.iter().map(|low| beneath(&rim, at, low));
+            rim.radius_m() - above.fold(nearest, f64::min)
         };
         in_shape(self.shape).max(in_shape(self.becoming()))
     }
@@ -239,20 +248,21 @@ impl Simulator {
     }
 
     fn start_is_free(&self) -> Result<(), SimulationError> {
-        let (at, radius_m) = (self.pose.at, self.radius_m());
+        let (at, rim) = (self.pose.at, self.placed());
         let low = self.shapes.all[self.shape].overhead.iter();
-        let low = low.map(|low| (low.signed_distance(at).max(0.0), "what is too low for it".to_owned()));
+        let low = low.map(|low| (beneath(&rim, at, low).max(0.0), "what is too low for it".to_owned()));
         let walls = self.walls.segments().iter().enumerate();
-        let walls = walls.map(|(i, wall)| (wall.distance(at), format!("wall {}", i + 1)));
+        let walls = walls.map(|(i, wall)| (rim.distance(at, wall), format!("wall {}", i + 1)));
         let obstacles = self.movers.iter().enumerate().map(|(i, mover)| {
-            let gap = mover.sides.iter().map(|side| side.distance(at)).fold(f64::INFINITY, f64::min);
+            let gap = mover.sides.iter().map(|side| rim.distance(at, side)).fold(f64::INFINITY, f64::min);
             (
                 if polygon::encloses(mover.sides.iter().copied(), at) { 0.0 } else { gap },
                 format!("obstacle {}", i + 1),
             )
         });
-        let near = walls.chain(obstacles).chain(low).find(|(gap, _)| *gap < radius_m + HAIR_M);
-        near.map_or(Ok(()), |(gap_m, what)| {
+        let mut near = walls.chain(obstacles).chain(low);
+        near.find(|(gap, _)| !rim.is_clear_by(*gap)).map_or(Ok(()), |(gap_m, what)| {
+            let radius_m = rim.is_disc().then(|| rim.radius_m());
             Err(SimulationError::Start { x: at.x, y: at.y, gap_m, what, radius_m })
         })
     }
@@ -266,13 +276,13 @@ impl Simulator {
                 let most = self.settings.turning_speed * period;
                 Step { turn: left.clamp(-most, most), ..Step::default() }
             }
-            Task::Move { left_m, speed_m_s, scale } => {
+            Task::Move { left_m, bearing, speed_m_s, scale } => {
                 let most = speed_m_s * period;
                 let counted_m = left_m.clamp(-most, most);
                 let far = counted_m.abs();
                 let turn = self.settings.heading_noise * self.random.normal() * far.sqrt()
                     + self.settings.heading_bias * far;
-                let towards = self.pose.direction(turn / 2.0);
+                let towards = self.pose.direction(bearing + turn / 2.0);
                 let true_m = counted_m * scale;
                 Step { counted_m, way: Point::new(true_m * towards.x, true_m * towards.y), turn }
             }
@@ -295,28 +305,49 @@ impl Simulator {
             self.touches.push(TouchEvent { time_s, at: touch.at, obstacle, by_robot: ahead > 0.0 });
         }
         self.pose.at = self.pose.at + step.way * share;
-        self.pose.heading = wrapped(self.pose.heading + share * step.turn);
+        let held = self.free_turn(share * step.turn);
+        let turn = held.unwrap_or(share * step.turn);
+        self.pose.heading = wrapped(self.pose.heading + turn);
         for (i, way) in ways.iter().enumerate() {
             let robot_way = Point::new(share * step.way.x, share * step.way.y);
             let free = self.free_share(i, *way, robot_way, share);
             self.movers[i].go(Point::new(free * way.x, free * way.y));
         }
-        self.count(&step, share, first.is_some() && robot_moved);
+        self.count(&Step { turn, ..step }, share, held.is_some() || first.is_some() && robot_moved);
+    }
+
+    /// How far the robot turns, radians, where it touches something by that; `None` where it turns freely.
+    fn free_turn(&mut self, by: f64) -> Option<f64> {
+        let rim = self.shapes.all[self.shape].rim;
+        if rim.is_disc() {
+            return None;
+        }
+        let walls = self.walls.around(self.pose.at, rim.outer_m() + SNAP_M).copied();
+        let walls: Vec<Segment> = walls.chain(self.overhead()).collect();
+        let by_wall = rim.turn(&self.pose, by, &walls).map(|touch| (touch, None));
+        let by_thing =
+            self.movers.iter().enumerate().filter_map(|(i, mover)| {
+                rim.turn(&self.pose, by, &mover.sides).map(|touch| (touch, Some(i)))
+            });
+        let first = by_wall.into_iter().chain(by_thing);
+        let (touch, obstacle) = first.min_by(|(one, _), (other, _)| one.share.total_cmp(&other.share))?;
+        self.touches.push(TouchEvent { time_s: self.time_s(), at: touch.at, obstacle, by_robot: true });
+        Some(touch.share * by)
     }
 
     /// What the robot touches first, if each went on as it wants to; what it touches is at its place at that time.
     fn first_touch(&self, step: &Step, ways: &[Point]) -> Option<(Touch, Option<usize>)> {
-        let (at, radius) = (self.pose.at, self.radius_m());
-        let reach = radius + step.way.length() + SNAP_M;
+        let (at, rim) = (self.pose.at, self.placed());
+        let reach = rim.outer_m() + step.way.length() + SNAP_M;
         let walls = self.walls.around(at, reach);
-        let overhead = self.overhead().filter_map(|low| touch(at, radius, step.way, &low));
-        let walls = walls.filter_map(|wall| touch(at, radius, step.way, wall));
+        let overhead = self.overhead().filter_map(|low| rim.touch(at, step.way, &low));
+        let walls = walls.filter_map(|wall| rim.touch(at, step.way, wall));
         let walls = walls.chain(overhead).map(|touch| (touch, None));
         let obstacles = self.movers.iter().zip(ways).enumerate().flat_map(|(i, (mover, way))| {
             let relative = step.way - *way;
             let way = *way;
             mover.sides.iter().filter_map(move |side| {
-                let touch = touch(at, radius, relative, side)?;
+                let touch = rim.touch(at, relative, side)?;
                 let moved = touch.at + way * touch.share;
                 Some((Touch { at: moved, ..touch }, Some(i)))
             })
@@ -330,12 +361,12 @@ impl Simulator {
         if way == Point::default() {
             return 0.0;
         }
-        let (at, radius) = (self.pose.at, self.radius_m());
+        let (at, rim) = (self.pose.at, self.placed());
         let sides = &self.movers[mover].sides;
         let begin = at - robot_way;
         let together = Point::new(robot_way.x - robot_share * way.x, robot_way.y - robot_share * way.y);
         let least = |from: Point, relative: Point| {
-            let touches = sides.iter().filter_map(|side| touch(from, radius, relative, side));
+            let touches = sides.iter().filter_map(|side| rim.touch(from, relative, side));
             touches.map(|touch| touch.share).fold(f64::INFINITY, f64::min)
         };
         let first = least(begin, together);
@@ -350,9 +381,9 @@ impl Simulator {
     /// The way that an obstacle tries to go. One that touches the robot waits until the way is free.
     fn way(&self, mover: usize, now_s: f64, step_s: f64) -> Point {
         let way = self.movers[mover].way(now_s, step_s);
-        let (at, radius) = (self.pose.at, self.radius_m());
+        let (at, rim) = (self.pose.at, self.placed());
         let back = -way;
-        let mut touches = self.movers[mover].sides.iter().filter_map(|side| touch(at, radius, back, side));
+        let mut touches = self.movers[mover].sides.iter().filter_map(|side| rim.touch(at, back, side));
         if touches.any(|touch| touch.share <= 0.0) { Point::default() } else { way }
     }
 
@@ -360,7 +391,9 @@ impl Simulator {
     fn count(&mut self, step: &Step, share: f64, has_touched: bool) {
         let is_turn = matches!(self.task, Task::Turn { .. });
         let turn = if is_turn { step.turn } else { 0.0 };
-        self.odometry = self.odometry.then(&Pose::new(share * step.counted_m, 0.0, turn));
+        let bearing = if let Task::Move { bearing, .. } = self.task { bearing } else { 0.0 };
+        let counted = Point::towards(bearing) * (share * step.counted_m);
+        self.odometry = self.odometry.then(&Pose { at: counted, heading: turn });
         self.task = match self.task {
             _ if has_touched => Task::Rest,
             Task::Turn { left } if (left - step.turn).abs() > 0.0 => Task::Turn { left: left - step.turn },
@@ -371,8 +404,8 @@ impl Simulator {
                 self.shape = to;
                 Task::Rest
             }
-            Task::Move { left_m, speed_m_s, scale } if (left_m - step.counted_m).abs() > 0.0 => {
-                Task::Move { left_m: left_m - step.counted_m, speed_m_s, scale }
+            Task::Move { left_m, bearing, speed_m_s, scale } if (left_m - step.counted_m).abs() > 0.0 => {
+                Task::Move { left_m: left_m - step.counted_m, bearing, speed_m_s, scale }
             }
             _ => Task::Rest,
         };
@@ -386,7 +419,8 @@ impl Simulator {
         let range_m = if kind < self.settings.missed {
             None
         } else if kind < self.settings.missed + self.settings.false_echoes {
-            Some(self.radius_m() + place * (reach - self.radius_m()).max(0.0))
+            let least = self.placed().reach_m(self.pose.direction(bearing));
+            Some(least + place * (reach - least).max(0.0))
         } else {
             let range = self.range(self.pose.at, self.pose.direction(bearing));
             let heard = range.map(|range| (range * (1.0 + self.settings.range_noise * noise)).max(0.0));
@@ -396,20 +430,19 @@ impl Simulator {
     }
 
     fn contact(&self) -> Option<Contact> {
-        let (at, radius) = (self.pose.at, self.radius_m());
-        let walls = self.walls.around(at, radius + SNAP_M);
+        let (at, rim) = (self.pose.at, self.placed());
+        let walls = self.walls.around(at, rim.outer_m() + SNAP_M);
         let sides = self.movers.iter().flat_map(|mover| &mover.sides);
-        let points =
-            walls.chain(sides).copied().chain(self.overhead()).map(|side| at.nearest_on(side.a, side.b));
-        let nearest = points.min_by(|a, b| at.distance(*a).total_cmp(&at.distance(*b)))?;
-        let is_felt = at.distance(nearest) <= radius + 3.0 * HAIR_M;
-        is_felt.then(|| Contact { bearing: self.pose.bearing(nearest) })
+        let all = walls.chain(sides).copied().chain(self.overhead());
+        let far = |side: &Segment| rim.distance(at, side);
+        let nearest = all.min_by(|one, other| far(one).total_cmp(&far(other)))?;
+        rim.feels(at, &nearest).then(|| Contact { bearing: self.pose.bearing(rim.nearest_on(at, &nearest)) })
     }
 }
 
 impl Body for Simulator {
-    fn radius_m(&self) -> f64 {
-        self.shapes.all[self.shape].radius_m
+    fn rim(&self) -> Rim {
+        self.shapes.all[self.shape].rim
     }
 
     fn directions(&self) -> usize {
@@ -419,10 +452,12 @@ impl Body for Simulator {
     fn command(&mut self, command: Command) {
         self.task = match command {
             Command::Turn { by } if by.is_finite() && by != 0.0 => Task::Turn { left: by },
-            Command::Move { distance_m, speed_m_s } if distance_m.is_finite() && speed_m_s > 0.0 => {
+            Command::Move { distance_m, bearing, speed_m_s }
+                if distance_m.is_finite() && bearing.is_finite() && speed_m_s > 0.0 =>
+            {
                 let speed_m_s = speed_m_s.min(self.shapes.all[self.shape].greatest_speed_m_s);
                 let scale = 1.0 + self.settings.distance_noise * self.random.normal();
-                Task::Move { left_m: distance_m, speed_m_s, scale }
+                Task::Move { left_m: distance_m, bearing, speed_m_s, scale }
             }
             Command::Change { to } if to != self.shape && to < self.shapes.all.len() => {
                 Task::Change { to, left_s: self.shapes.seconds(self.shape, to) }
@@ -449,6 +484,13 @@ impl Body for Simulator {
             shape: self.shape,
         })
     }
+}
+
+/// As [`Rim::distance`], from what hangs low; below 0 where the middle is beneath it.
+fn beneath(rim: &Rim, at: Point, low: &Rect) -> f64 {
+    let sides = polygon::sides_of_rect(low);
+    let far = sides.iter().map(|side| rim.distance(at, side)).fold(f64::INFINITY, f64::min);
+    if low.contains(at) { -far } else { far }
 }
 
 fn check(

@@ -24,6 +24,8 @@ pub(crate) struct Basis<'a> {
     pub within: Option<f64>,
     /// In which state the robot starts, and in which it arrives; `None`: in whichever is cheapest.
     pub ends_in: [Option<&'a str>; 2],
+    /// At which facing it starts, in degrees, where that state is longer than wide; `None`: at whichever is cheapest.
+    pub start_facing: Option<f64>,
 }
 
 /// The map, with what measures clearances in it.

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use adit_db::room::Room;
-use adit_planners::routes::{Goal, Start};
+use adit_planners::routes::{Goal, RoomIndex, Start};
 
 use super::basis::Basis;
 use super::{Answer, Status};
@@ -21,6 +21,9 @@ pub(crate) struct Ends {
     /// What was taken instead of which end, by index in `named`.
     pub taken: Vec<(usize, Nearest)>,
 }
+
+/// Facings that differ by less are one, degrees.
+const SAME_FACING: f64 = 1e-6;
 
 impl Basis<'_> {
     /// What start and goals are; where one is nothing, the answer says so.
@@ -42,6 +45,12 @@ impl Basis<'_> {
         let mut unfit = Vec::new();
         for (index, end) in named.iter().enumerate() {
             let (mut goal, instead) = self.entered(end, index, answer)?;
+            if let Some(facing) = self.start_facing.filter(|_| index == 0) {
+                let is_there = |room: RoomIndex| {
+                    self.graph[room].facing.is_some_and(|of| (of - facing).abs() < SAME_FACING)
+                };
+                goal.rooms.retain(|entry| is_there(entry.room));
+            }
             if let Some(state) = self.ends_in[usize::from(index > 0)] {
                 unfit.extend(self.keep_state(state, &mut goal, (end, index), &answer.robot)?);
             }

@@ -79,7 +79,7 @@ pub fn body(args: &BodyArgs) -> Result<()> {
         let at = floor.point(&args.start)?;
         may_begin(&floor, at)?;
         let stage = Stage::new(&floor, &Judges::new(&live.asked(), &floor.told)?)?;
-        let shapes = vec![Outline { name: robot, radius_m: floor.network.disc.radius }];
+        let shapes = vec![Outline { name: robot, radius_m: floor.network.disc.radius, length_m: None }];
         let shape = shape(args, &shapes, &[0])?;
         let made = || stage.body(&mission(at));
         return Robot { args, shapes, shape, senses: stage.senses(), made: &made }.answer();
@@ -142,7 +142,7 @@ impl Robot<'_> {
         let served = host.serve(&mut input, &mut output, |body| {
             let at = body.pose().at;
             let advance = Advance { metres: before.distance(at), seconds: 0.0, is_under_way: false };
-            trip.note(&advance, (at, body.shape()), &[]);
+            trip.note(&advance, (at, body.shape()), None, &[]);
             before = at;
             deepest_m = deepest_m.max(body.overlap_m());
         });

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use adit_planners::pose::Pose;
+use adit_planners::rim::Rim;
 use clap::Args;
 
 use super::args::{SiteArgs, heading, timeout};
@@ -124,7 +125,7 @@ impl Driver<'_> {
         let number = kept.before + 1;
         let stage = Stage::new(&floor, &Judges::new(&live.asked(), &floor.told)?)?;
         let ends = (Pose { at, heading: self.heading }, goal);
-        let used = [Used { name: None, radius_m: floor.network.disc.radius }];
+        let used = [Used { name: None, rim: Rim::disc(floor.network.disc.radius) }];
         let (journal, said) = if args.tell {
             let reports = Reports::default();
             let plan = |live: &Live, robot: &str| Ok(of_robot(live, Some(robot))?.1);

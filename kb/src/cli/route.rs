@@ -50,6 +50,7 @@ pub fn run(args: &RouteArgs) -> Result<u8> {
         load: args.load.clone(),
         at: args.at.clone(),
         start_state: args.start_state.clone(),
+        start_facing: None,
         goal_state: args.goal_state.clone(),
     };
     let (start, robot) = (&args.way.start, args.way.robot.as_deref());

@@ -25,6 +25,8 @@ pub struct Errand {
     pub at: Option<String>,
     /// In which state it begins; in the cheapest where none is said.
     pub start_state: Option<String>,
+    /// At which facing, in degrees, where that state is longer than wide.
+    pub start_facing: Option<f64>,
     /// In which state it ends.
     pub goal_state: Option<String>,
 }
@@ -73,7 +75,8 @@ impl State {
         let state = self.on_errand(&[], errand, robot)?;
         let robot = answer::pick(&state.robots(), robot)?;
         let blank = Answer::blank(&robot, start, goals, state.generation);
-        Basis { ends_in: errand.ends_in(), ..state.basis() }.search(goals, blank)
+        Basis { ends_in: errand.ends_in(), start_facing: errand.start_facing, ..state.basis() }
+            .search(goals, blank)
     }
 
     /// The best route to a goal on an errand after edits, which nobody keeps; where there is none, nothing is said of why.
@@ -87,7 +90,7 @@ impl State {
         let state = self.on_errand(edits, errand, Some(robot))?;
         let goals = [goal.to_owned()];
         let blank = Answer::blank(robot, start, &goals, state.generation);
-        let basis = Basis { ends_in: errand.ends_in(), ..state.basis() };
+        let basis = Basis { ends_in: errand.ends_in(), start_facing: errand.start_facing, ..state.basis() };
         basis.found(&goals, blank).map(|(answer, _)| answer)
     }
 

@@ -94,10 +94,16 @@ impl SiteGraph {
 
     /// The states of a robot that fit at a point, whether a way leads on from there or not.
     pub fn states_at(&self, gauge: &Gauge, at: Point, robot: Option<&str>) -> Vec<&str> {
-        let fitting = self.layers(robot).filter(|layer| gauge.fits(layer.shape(), at, at));
-        let mut states: Vec<&str> = fitting.filter_map(|layer| layer.state()).collect();
+        let mut states: Vec<&str> =
+            self.stances_at(gauge, at, robot).into_iter().map(|(state, _)| state).collect();
         states.dedup();
         states
+    }
+
+    /// The same, each with the facings, in degrees, in which it fits.
+    pub fn stances_at(&self, gauge: &Gauge, at: Point, robot: Option<&str>) -> Vec<(&str, Option<f64>)> {
+        let fitting = self.layers(robot).filter(|layer| gauge.fits(layer.shape(), at, at));
+        fitting.filter_map(|layer| Some((layer.state()?, layer.shape().1))).collect()
     }
 
     /// The facings in which a state has rooms.

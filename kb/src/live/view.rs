@@ -130,6 +130,7 @@ impl View {
             ground: answer::Ground::Known(&self.world, &self.gauge),
             within: self.within,
             ends_in: [None; 2],
+            start_facing: None,
         }
     }
 

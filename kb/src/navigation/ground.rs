@@ -7,6 +7,7 @@ use adit_db::route::Waypoint;
 use adit_planners::floor_plan::{Disc, FloorPlan, Network};
 use adit_planners::geometry::{Point, Rect, Segment, polygon};
 use adit_planners::navigation::{Building, Drivable, Outfit, Stretch};
+use adit_planners::rim::Rim;
 use adit_planners::routes::RoomIndex;
 use adit_planners::simulator::{Shape, Shapes};
 
@@ -28,7 +29,7 @@ pub struct Ground {
     /// The names of the robot's shapes, by number: those of its states in which it can move.
     pub states: Vec<String>,
     pub shapes: Shapes,
-    /// The building as it is for the robot in each shape.
+    /// The building as it is for the robot in each stance: in a shape, at each of its facings where it is longer than wide.
     pub buildings: Vec<Building>,
     /// What stands, whatever the robot's height.
     pub plan: FloorPlan,
@@ -45,10 +46,10 @@ pub struct Ground {
 
 /// What nobody may cross in a state, though nothing is there: doorways that are closed, and the outlines of rooms that rules let
 /// nobody enter.
-fn closed(state: &State, of: &(String, String)) -> Vec<Segment> {
+fn closed(state: &State, of: &(String, String), facing: Option<f64>) -> Vec<Segment> {
     let graph = state.graph();
     let doorways = graph.building.closed().map(Spaces::segment);
-    let is_shut = |room: &&Room| room.layer.as_ref() == Some(of) && !is_weighed(room);
+    let is_shut = |room: &&Room| is_of(room, of, facing) && !is_weighed(room);
     let rooms = graph.rooms.iter().enumerate().filter(|(_, room)| is_shut(room));
     let outlines = rooms.flat_map(|(index, _)| {
         let corners: Vec<Point> = graph.outline(RoomIndex::new(index)).corners().collect();
@@ -57,11 +58,16 @@ fn closed(state: &State, of: &(String, String)) -> Vec<Segment> {
     doorways.chain(outlines).collect()
 }
 
-/// Where the middle of a robot may be in a state.
-fn floor(state: &State, of: &(String, String)) -> Vec<Vec<Point>> {
+/// Whether a room is one of a state, at a facing.
+fn is_of(room: &Room, of: &(String, String), facing: Option<f64>) -> bool {
+    room.layer.as_ref() == Some(of) && room.facing == facing
+}
+
+/// Where the middle of a robot may be in a state, at a facing.
+fn floor(state: &State, of: &(String, String), facing: Option<f64>) -> Vec<Vec<Point>> {
     let graph = state.graph();
     let rooms = graph.rooms.iter().enumerate();
-    let own = rooms.filter(|(_, room)| room.layer.as_ref() == Some(of) && is_weighed(room));
+    let own = rooms.filter(|(_, room)| is_of(room, of, facing) && is_weighed(room));
     own.map(|(index, _)| graph.outline(RoomIndex::new(index)).corners().collect()).collect()
 }
 
@@ -96,7 +102,7 @@ impl Ground {
                 (rows.text(row, "robot").unwrap_or_default(), rows.text(row, "state").unwrap_or_default());
             let has_rooms = state.graph().rooms.iter().any(|room| room.layer.as_ref() == Some(&of));
             if of.0 == ground.robot && has_rooms {
-                ground.add(state, of.1, rows.number(row, "speed"))?;
+                ground.add(state, of.1, rows.number(row, "speed"));
             }
         }
         if ground.states.is_empty() {
@@ -118,35 +124,25 @@ impl Ground {
     }
 
     /// A shape more: that of a state.
-    fn add(&mut self, state: &State, name: String, speed: Option<f64>) -> Result<()> {
+    fn add(&mut self, state: &State, name: String, speed: Option<f64>) {
         let of = (self.robot.clone(), name);
-        let Some(size) = state.gauge.size(&of) else { return Ok(()) };
-        if let Some(length) = size.length {
-            let message = format!(
-                "{} is {length} m long in its state {}, and robots that are simulated are round",
-                of.0, of.1
-            );
-            let help = "missions are driven by robots whose states have a width alone".to_owned();
-            return Err(Error::said(Code::SimulateImpossible, message, Some(help)));
-        }
-        let radius = size.width / 2.0;
+        let Some(size) = state.gauge.size(&of) else { return };
+        let rim = Rim::of(size.width, size.length);
         let low = state.world.bridges.iter().filter(|bridge| size.height >= bridge.height);
         let overhead: Vec<Rect> = low.map(|bridge| bridge.rect).collect();
-        let sides = overhead.iter().flat_map(polygon::sides_of_rect).collect();
-        let network = Network::none(Disc { radius, margin: 0.0 });
-        self.buildings.push(Building {
-            overhead: sides,
-            floor: floor(state, &of),
-            closed: closed(state, &of),
-            ..Building::of_walls(network, self.walls.clone())
-        });
-        self.shapes.all.push(Shape {
-            radius_m: radius,
-            greatest_speed_m_s: speed.unwrap_or(SPEED_M_S),
-            overhead,
-        });
+        let sides: Vec<Segment> = overhead.iter().flat_map(polygon::sides_of_rect).collect();
+        for facing in state.graph().facings(&of) {
+            let network = Network::none(Disc { radius: rim.inner_m(), margin: 0.0 });
+            let building = Building {
+                overhead: sides.clone(),
+                floor: floor(state, &of, facing),
+                closed: closed(state, &of, facing),
+                ..Building::of_walls(network, self.walls.clone())
+            };
+            self.buildings.push(building.in_stance(self.states.len(), &rim, facing.map(f64::to_radians)));
+        }
+        self.shapes.all.push(Shape { rim, greatest_speed_m_s: speed.unwrap_or(SPEED_M_S), overhead });
         self.states.push(of.1);
-        Ok(())
     }
 
     /// The number of the shape of a state.
@@ -154,46 +150,67 @@ impl Ground {
         self.states.iter().position(|known| known == state)
     }
 
-    /// The shapes in which the robot fits at a point, by number; at least one.
+    /// The stance of a shape, at a facing in degrees if it has any.
+    fn stance(&self, shape: usize, facing: Option<f64>) -> Option<usize> {
+        let facing = facing.map(f64::to_radians);
+        self.buildings.iter().position(|stance| stance.shape == shape && stance.facing == facing)
+    }
+
+    /// The stance of a shape that is nearest to how a robot stands there.
+    pub fn stance_at(&self, shape: usize, heading: f64) -> usize {
+        let own = self.buildings.iter().enumerate().filter(|(_, stance)| stance.shape == shape);
+        let off = |stance: &Building| stance.off_facing(heading).abs();
+        let nearest = own.min_by(|(_, one), (_, other)| off(one).total_cmp(&off(other)));
+        nearest.map_or(0, |(number, _)| number)
+    }
+
+    /// The name of the state of a stance, and the facing in degrees.
+    pub fn of_stance(&self, stance: usize) -> (&str, Option<f64>) {
+        let building = &self.buildings[stance];
+        (&self.states[building.shape], building.facing.map(f64::to_degrees))
+    }
+
+    /// The stances in which the robot fits at a point, by number; at least one.
     pub fn fitting(&self, state: &State, at: Point) -> Result<Vec<usize>> {
-        let fitting = state.graph().states_at(&state.gauge, at, Some(&self.robot));
-        let fits = |shape: &usize| fitting.contains(&self.states[*shape].as_str());
-        let shapes: Vec<usize> = (0..self.states.len()).filter(fits).collect();
-        if shapes.is_empty() {
+        let fitting = state.graph().stances_at(&state.gauge, at, Some(&self.robot));
+        let stance = |(state, facing): (&str, Option<f64>)| self.stance(self.shape(state)?, facing);
+        let mut stances: Vec<usize> = fitting.into_iter().filter_map(stance).collect();
+        stances.sort_unstable();
+        if stances.is_empty() {
             let message =
                 format!("no robot can begin at ({:?}, {:?}): it fits there in no state", at.x, at.y);
             return Err(Error::said(Code::SimulateImpossible, message, None));
         }
-        Ok(shapes)
+        Ok(stances)
     }
 
     /// Its shapes, as a body must have them that is driven here.
     pub fn used(&self) -> Vec<Used> {
         let outlines = self.outlines().into_iter();
-        outlines.map(|Outline { name, radius_m }| Used { name: Some(name), radius_m }).collect()
+        outlines.map(|outline| Used { rim: outline.rim(), name: Some(outline.name) }).collect()
     }
 
     /// Its shapes, as a body tells them.
     pub fn outlines(&self) -> Vec<Outline> {
         let shapes = self.states.iter().cloned().zip(&self.shapes.all);
-        shapes.map(|(name, shape)| Outline { name, radius_m: shape.radius_m }).collect()
+        shapes.map(|(name, shape)| Outline::of(name, &shape.rim)).collect()
     }
 
-    /// Where a simulated robot that begins in a shape drives, and how it is set.
-    pub fn stage(&self, shape: usize) -> (Drivable<'_>, Outfit) {
+    /// Where a simulated robot that begins in a stance drives, and how it is set.
+    pub fn stage(&self, stance: usize) -> (Drivable<'_>, Outfit) {
         let on =
-            Drivable { walls: &self.walls, shapes: Some(&self.shapes), shape, buildings: &self.buildings };
-        (on, self.driving.outfit(self.shapes.all[shape].radius_m))
+            Drivable { walls: &self.walls, shapes: Some(&self.shapes), stance, buildings: &self.buildings };
+        (on, self.driving.outfit(self.buildings[stance].rim.inner_m()))
     }
 
-    /// The radius of the smallest shape, metres.
+    /// The least room that the robot needs about its middle, metres: in its smallest shape, turning any way.
     pub fn least_radius(&self) -> f64 {
-        self.shapes.all.iter().map(|shape| shape.radius_m).fold(f64::INFINITY, f64::min)
+        self.shapes.all.iter().map(|shape| shape.rim.outer_m()).fold(f64::INFINITY, f64::min)
     }
 
-    /// The radius of the widest shape, metres.
+    /// The most room that it needs there, metres.
     pub fn widest_radius(&self) -> f64 {
-        self.shapes.all.iter().map(|shape| shape.radius_m).fold(0.0, f64::max)
+        self.shapes.all.iter().map(|shape| shape.rim.outer_m()).fold(0.0, f64::max)
     }
 
     /// Whether something lies on the map, so that it can be laid over it.
@@ -207,21 +224,22 @@ impl Ground {
         answer.waypoints.last().is_some_and(|last| at(last).distance(goal) <= tolerance)
     }
 
-    /// A route as it is driven, from shape to shape; `None` where there is none.
+    /// A route as it is driven, from stance to stance; `None` where there is none.
     pub fn stretches(&self, answer: &Answer) -> Option<Vec<Stretch>> {
         if !matches!(answer.status, Status::Ok | Status::SameRoom) {
             return None;
         }
         let mut way: Vec<Stretch> = Vec::new();
         for waypoint in &answer.waypoints {
-            let (at, shape) = (at(waypoint), self.shape(waypoint.state.as_deref()?)?);
+            let shape = self.shape(waypoint.state.as_deref()?)?;
+            let (at, stance) = (at(waypoint), self.stance(shape, waypoint.facing)?);
             match way.last_mut() {
-                Some(stretch) if stretch.shape == shape => stretch.points.push(at),
+                Some(stretch) if stretch.stance == stance => stretch.points.push(at),
                 Some(stretch) => {
                     let from = stretch.points.last().copied().unwrap_or(at);
-                    way.push(Stretch { shape, points: vec![from, at] });
+                    way.push(Stretch { stance, points: vec![from, at] });
                 }
-                None => way.push(Stretch { shape, points: vec![at] }),
+                None => way.push(Stretch { stance, points: vec![at] }),
             }
         }
         Some(way)

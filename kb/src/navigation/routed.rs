@@ -11,7 +11,7 @@ use adit_planners::geometry::{Point, Rect, Segment, polygon};
 use adit_planners::navigation::{
     Entry, Met, Mission, ROOM_M, Router, Stretch, Trip, draw_along, draw_kidnapping, trip,
 };
-use adit_planners::pose::Pose;
+use adit_planners::pose::{Pose, wrapped};
 use adit_planners::simulator::{Film, Obstacle};
 
 use super::ground::{Ground, at};
@@ -21,7 +21,7 @@ use crate::answer::Answer;
 use crate::edit::{Edit, Errand, Lay, Thing};
 use crate::error::{Code, Error, Result};
 use crate::live::Live;
-use crate::navigation::body::Remote;
+use crate::navigation::body::{Outline, Remote};
 use crate::site::clock::stored;
 use crate::state::State;
 
@@ -91,7 +91,7 @@ impl OnMission {
 /// What is asked of the site.
 struct Ask<'m> {
     ends: [Point; 2],
-    shape: usize,
+    stance: usize,
     met: &'m [Met],
     /// Each of the things that it met is so much thicker than it was seen, at the least, metres.
     room_m: f64,
@@ -100,8 +100,8 @@ struct Ask<'m> {
 }
 
 impl Router for Site<'_> {
-    fn way(&mut self, ends: [Point; 2], shape: usize, met: &[Met]) -> Option<Vec<Stretch>> {
-        let way = self.found(ends, shape, met);
+    fn way(&mut self, ends: [Point; 2], stance: usize, met: &[Met]) -> Option<Vec<Stretch>> {
+        let way = self.found(ends, stance, met);
         self.on.known = self.live.generation();
         way.unwrap_or_else(|error| {
             self.on.trouble.get_or_insert(error);
@@ -123,12 +123,12 @@ impl Router for Site<'_> {
 }
 
 impl Site<'_> {
-    fn found(&mut self, [from, to]: [Point; 2], shape: usize, met: &[Met]) -> Result<Option<Vec<Stretch>>> {
+    fn found(&mut self, [from, to]: [Point; 2], stance: usize, met: &[Met]) -> Result<Option<Vec<Stretch>>> {
         if self.tells {
             let things = self.things(&self.not_robots(met), from, 0.0);
             self.tell(&things)?;
         }
-        let lean = self.asked(&Ask { ends: [from, to], shape, met, room_m: 0.0, is_wide: false })?;
+        let lean = self.asked(&Ask { ends: [from, to], stance, met, room_m: 0.0, is_wide: false })?;
         let Some(least) = lean.as_ref().and_then(|lean| lean.cost) else { return Ok(None) };
         // farther from what stands and from what it met, where that costs little
         let settings = &self.ground.driving.navigation;
@@ -138,7 +138,7 @@ impl Site<'_> {
         let wide = rooms.iter().map(|room_m| (*room_m, true)).filter(|_| settings.beside_m > 0.0);
         let narrow = rooms.iter().map(|room_m| (*room_m, false)).filter(|_| !met.is_empty());
         for (room_m, is_wide) in wide.chain(narrow) {
-            let roomy = self.asked(&Ask { ends: [from, to], shape, met, room_m, is_wide })?;
+            let roomy = self.asked(&Ask { ends: [from, to], stance, met, room_m, is_wide })?;
             if let Some(roomy) = roomy.filter(|roomy| roomy.cost.is_some_and(|cost| cost <= worth)) {
                 return Ok(self.ground.stretches(&roomy));
             }
@@ -148,7 +148,7 @@ impl Site<'_> {
 
     /// The best route where things stand that the robot met; `None` where there is none, or only one that ends beside the goal.
     fn asked(&mut self, ask: &Ask<'_>) -> Result<Option<Answer>> {
-        let Ask { ends: [from, to], shape, met, room_m: least_m, is_wide } = *ask;
+        let Ask { ends: [from, to], stance, met, room_m: least_m, is_wide } = *ask;
         let state = if is_wide { self.wide()? } else { self.live.fork() };
         let mut things = self.things(met, from, least_m);
         // Where what it met is known, the way is too narrow for it, though nobody else need find it so: what stands there stands
@@ -165,11 +165,7 @@ impl Site<'_> {
             !state.world.is_solid(at) && !things.iter().any(|thing| polygon::is_in_convex(thing, at, HAIR_M))
         };
         let narrow = narrow.into_iter().map(|(_, met)| met).filter(|met| is_on_floor(met.at));
-        let errand = Errand {
-            avoid: narrow.map(named).collect(),
-            start_state: Some(self.ground.states[shape].clone()),
-            ..Errand::default()
-        };
+        let errand = Errand { avoid: narrow.map(named).collect(), ..begun_in(self.ground, stance) };
         let goal = named_point(to);
         let beside_m = self.ground.driving.navigation.beside_m;
         let lay = |(number, thing): (usize, &Vec<Point>)| {
@@ -185,7 +181,7 @@ impl Site<'_> {
         let answer = ask(state.fork(), &errand)?.filter(|answer| answer.cost.is_some());
         // where its shape does not fit by what it saw, another one may
         let answer = match answer {
-            None => ask(state, &Errand { start_state: None, ..errand })?,
+            None => ask(state, &Errand { start_state: None, start_facing: None, ..errand })?,
             answer => answer,
         };
         // whoever stands where only the narrow fits goes on in the narrow
@@ -344,13 +340,22 @@ fn things(all: impl IntoIterator<Item = Vec<Point>>, clear: &[Point]) -> Vec<Vec
     things
 }
 
-/// What makes a robot wider in each of its states.
+/// What makes a robot larger all around in each of its states.
 fn wider(ground: &Ground, by_m: f64) -> impl Iterator<Item = Edit> + '_ {
-    ground.states.iter().zip(&ground.shapes.all).map(move |(state, shape)| {
-        let key = format!("{}/{state}", ground.robot);
-        let width = format!("{:?}", 2.0 * shape.radius_m + by_m);
-        Edit::Set("robots".to_owned(), key, "width".to_owned(), width)
+    ground.outlines().into_iter().flat_map(move |Outline { name, radius_m, length_m }| {
+        let key = format!("{}/{name}", ground.robot);
+        let sizes = [("width", Some(2.0 * radius_m)), ("length", length_m)];
+        sizes.into_iter().filter_map(move |(column, metres)| {
+            let value = format!("{:?}", metres? + by_m);
+            Some(Edit::Set("robots".to_owned(), key.clone(), column.to_owned(), value))
+        })
     })
+}
+
+/// An errand of a robot that begins in a stance.
+fn begun_in(ground: &Ground, stance: usize) -> Errand {
+    let (state, start_facing) = ground.of_stance(stance);
+    Errand { start_state: Some(state.to_owned()), start_facing, ..Errand::default() }
 }
 
 /// A route from where a robot is, or may be, on an errand, after edits that nobody keeps.
@@ -457,10 +462,11 @@ impl Missions<'_> {
         match (mission, trouble) {
             (Some(mut mission), _) => {
                 // nor where the robot stands, in the shape in which it begins
-                let radius = ground.shapes.all[self.shape_of(&mission)?].radius_m + HAIR_M;
+                let rim = ground.buildings[self.stance_of(&mission)?].rim;
                 let start = mission.start.at;
                 let is_on_robot = |thing: &Obstacle| {
-                    polygon::sides(&thing.corners).any(|side| side.distance(start) <= radius)
+                    let far = |side: Segment| rim.distance(start, &side);
+                    polygon::sides(&thing.corners).map(far).any(|far| far <= rim.radius_m() + HAIR_M)
                 };
                 mission.obstacles.retain(|thing| !is_on_place(thing) && !is_on_robot(thing));
                 Ok(mission)
@@ -485,16 +491,18 @@ impl Missions<'_> {
     ) -> Result<(Journal, Vec<String>)> {
         let before = Instant::now();
         let (ground, goal) = (self.ground, named_point(mission.goal));
-        let shape = self.shape_of(mission)?;
-        let (on, outfit) = ground.stage(shape);
+        let stance = self.stance_of(mission)?;
+        let mission = &self.placed(mission, stance);
+        let (on, outfit) = ground.stage(stance);
         let (outcome, journal, said) = self.along(number, |site, judge, entries| {
             mission
                 .run(&on, &outfit, Some(site), judge, |entry| entries.push(entry), film)
                 .map_err(Error::of(Code::SimulateImpossible))
         })?;
-        let radius = ground.shapes.all[outcome.trip.shape].radius_m;
-        let (from, shape) = outcome.kidnapped.unwrap_or((mission.start, shape));
-        let judged = self.judged(mission, (from.at, &goal), shape)?;
+        let radius = ground.shapes.all[outcome.trip.shape].rim.inner_m();
+        let kidnapped = outcome.kidnapped.map(|(pose, shape)| (pose, ground.stance_at(shape, pose.heading)));
+        let (from, stance) = kidnapped.unwrap_or((mission.start, stance));
+        let judged = self.judged(mission, (from.at, &goal), stance)?;
         let row = Row::new((number, mission), &outcome, Some(judged), radius);
         let row = self.weighed(row, &outcome.trip, before);
         // being carried is not driving, however hard that were
@@ -514,11 +522,12 @@ impl Missions<'_> {
         body: &mut Remote,
     ) -> Result<(Journal, Vec<String>)> {
         let before = Instant::now();
-        let (ground, shape) = (self.ground, body.shape());
-        let (_, outfit) = ground.stage(shape);
+        let ground = self.ground;
+        let stance = ground.stance_at(body.shape(), start.heading);
+        let (_, outfit) = ground.stage(stance);
         let outfit = outfit.measuring(body.directions(), body.range_m());
         let (trip, journal, said) = self.along(number, |site, judge, entries| {
-            let on = (&ground.buildings[..], shape);
+            let on = (&ground.buildings[..], stance);
             Ok(trip(body, on, (start, goal), &outfit, Some(site), judge, |entry| entries.push(entry)))
         })?;
         let row = Row::of_trip(number, [start.at, goal], &trip);
@@ -570,19 +579,25 @@ impl Missions<'_> {
         }
     }
 
-    /// In which shape the robot begins: as its route does; without one, in the first that fits there.
-    pub(super) fn shape_of(&self, mission: &Mission) -> Result<usize> {
+    /// A mission whose robot faces as it has to in the stance in which it begins.
+    pub(super) fn placed(&self, mission: &Mission, stance: usize) -> Mission {
+        let heading = mission.start.heading;
+        let heading = wrapped(heading + self.ground.buildings[stance].off_facing(heading));
+        Mission { start: Pose { heading, ..mission.start }, ..mission.clone() }
+    }
+
+    /// In which stance the robot begins: as its route does; without one, in the first that fits there.
+    pub(super) fn stance_of(&self, mission: &Mission) -> Result<usize> {
         let (at, goal) = (mission.start.at, named_point(mission.goal));
         let first = asked(self.live.fork(), &[], (at, &goal), &Errand::default(), &self.ground.robot)?;
-        let by_route =
-            first.waypoints.first().and_then(|waypoint| self.ground.shape(waypoint.state.as_deref()?));
+        let by_route = self.ground.stretches(&first).and_then(|way| Some(way.first()?.stance));
         let fitting = self.ground.fitting(&self.live.fork(), at)?;
-        Ok(by_route.filter(|shape| fitting.contains(shape)).unwrap_or(fitting[0]))
+        Ok(by_route.filter(|stance| fitting.contains(stance)).unwrap_or(fitting[0]))
     }
 
     /// What is possible for who knows of all obstacles.
-    fn judged(&self, mission: &Mission, ends: (Point, &str), shape: usize) -> Result<Judged> {
-        let errand = Errand { start_state: Some(self.ground.states[shape].clone()), ..Errand::default() };
+    fn judged(&self, mission: &Mission, ends: (Point, &str), stance: usize) -> Result<Judged> {
+        let errand = begun_in(self.ground, stance);
         // one that comes to rest beside the map is in nobody's way
         let boxes = mission.obstacles.iter().map(Obstacle::at_rest);
         let boxes = (1..).zip(boxes.filter(|thing| self.ground.is_on_map(thing)));

@@ -90,8 +90,9 @@ impl<'l> Missions<'l> {
         let mut hands: Vec<Hand> = Vec::new();
         for (index, noting) in notings.iter_mut().enumerate() {
             let mission = drawn.apart(self, &robots, None)?;
-            let shape = self.shape_of(&mission)?;
-            let (on, outfit) = ground.stage(shape);
+            let stance = self.stance_of(&mission)?;
+            let mission = self.placed(&mission, stance);
+            let (on, outfit) = ground.stage(stance);
             robots.push(
                 mission.begin(&on, &outfit, true, noting).map_err(Error::of(Code::SimulateImpossible))?,
             );
@@ -173,7 +174,7 @@ impl<'l> Missions<'l> {
     /// How an errand ended. That there is no way is not judged, since doors and robots come and go.
     fn row(&self, errand: &Errand, (robot, ending): (&Underway<'_>, Ending)) -> Row {
         let outcome = robot.outcome(ending);
-        let radius = self.ground.shapes.all[outcome.trip.shape].radius_m;
+        let radius = self.ground.shapes.all[outcome.trip.shape].rim.inner_m();
         let row = Row::new((errand.on.mission(), &errand.mission), &outcome, None, radius);
         let is_right = (ending == Ending::Arrived).then_some(outcome.miss_m <= radius);
         let truth = row.truth.map(|truth| Truth { right: is_right, obstacles: 0, ..truth });
@@ -193,7 +194,7 @@ const STEP: usize = 5;
 impl Trails {
     fn note(&mut self, robots: &[Underway<'_>]) {
         for (trail, robot) in self.0.iter_mut().zip(robots) {
-            trail.push_back((robot.navigator().estimate().pose.at, robot.body().widest_m()));
+            trail.push_back((robot.navigator().estimate().pose.at, robot.body().widest().outer_m()));
             if trail.len() > TRAIL {
                 trail.pop_front();
             }

@@ -80,8 +80,10 @@ impl Missions<'_> {
         let drawn = self.drawn(STOPS, (seed, false))?;
         let start = drawn[0].start;
         let stops: Vec<Point> = drawn.iter().map(|mission| mission.goal).collect();
-        let shape = self.shape_of(&Mission::between(start, stops[0], seed))?;
-        let (on, outfit) = self.ground.stage(shape);
+        let mission = Mission::between(start, stops[0], seed);
+        let stance = self.stance_of(&mission)?;
+        let start = self.placed(&mission, stance).start;
+        let (on, outfit) = self.ground.stage(stance);
         let tour = Tour { start, stops, far_m, seed };
         let (wrong, _, _) = self.along(1, |site, judge, _| {
             tour.run(&on, &outfit, Some(site), judge).map_err(Error::of(Code::SimulateImpossible))

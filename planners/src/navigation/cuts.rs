@@ -70,7 +70,7 @@ impl Parts {
         }
         let mut grid = FreeGrid::new(window, ground.grain);
         for barrier in ground.barriers {
-            grid.block(barrier, ground.reach);
+            grid.block(&ground.rim, barrier, ground.reach);
         }
         grid.keep(is_inside);
         Self::Split { parts: grid.parts(), grid }

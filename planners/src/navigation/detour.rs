@@ -35,7 +35,7 @@ impl Ground<'_> {
 
     /// Lines from the obstacle that is met first to what is next on its left, and on its right.
     fn cuts(&self, from: Point, to: Point) -> Option<[Segment; 2]> {
-        let free = free_ahead(from, to, [self.least, self.reach], self.barriers);
+        let free = free_ahead(&self.rim, from, to, [self.least, self.reach], self.barriers);
         let met = free.by?;
         let whole = from.distance(to);
         let ahead = Segment::new(from, to).direction();
@@ -54,11 +54,12 @@ impl Ground<'_> {
     fn group(&self, met: usize) -> Vec<bool> {
         let mut group = vec![false; self.barriers.len()];
         group[met] = true;
+        let width = 2.0 * (self.rim.inner_m() - self.rim.radius_m() + self.reach);
         let mut open = if met < self.obstacles_from { Vec::new() } else { vec![met] };
         while let Some(one) = open.pop() {
             let a = self.barriers[one];
             for (other, b) in self.barriers.iter().enumerate().skip(self.obstacles_from) {
-                if !group[other] && a.gap(b) < 2.0 * self.reach {
+                if !group[other] && a.gap(b) < width {
                     group[other] = true;
                     open.push(other);
                 }
@@ -77,6 +78,7 @@ fn lies_left(from: Point, to: Point, path: &[Point]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::rim::Rim;
 
     const ENDS: [Point; 2] = [Point::new(0.0, 0.0), Point::new(4.0, 0.0)];
 
@@ -90,6 +92,7 @@ mod tests {
         let ground = Ground {
             barriers: &barriers,
             obstacles_from: 2,
+            rim: Rim::disc(0.25),
             reach: 0.3,
             least: 0.25,
             aside: 2.0,

@@ -82,7 +82,7 @@ impl<J: Judge, W: FnMut(Entry)> Drive<'_, J, W> {
         match order {
             Order::Forward(distance_m) => {
                 let speed_m_s = self.navigator.settings().speed_m_s;
-                self.command(Command::Move { distance_m: *distance_m, speed_m_s });
+                self.command(Command::Move { distance_m: *distance_m, bearing: 0.0, speed_m_s });
             }
             Order::Turn(by) => self.command(Command::Turn { by: *by }),
             Order::Look => self.look(),

@@ -1,8 +1,9 @@
-//! Free space for a disc among barriers, and the shortest paths through it.
+//! Free space for a robot, as it stands, among barriers, and the shortest paths through it.
 
 use super::free_grid::FreeGrid;
 use super::highway::{is_clear, straightened};
 use crate::geometry::{Point, Rect, Segment};
+use crate::rim::Rim;
 
 /// The grid may lack a cell at an end of a path; the nearest one up to so far is taken, metres.
 const NEAR_M: f64 = 0.4;
@@ -14,7 +15,8 @@ pub(super) struct Ground<'b> {
     pub barriers: &'b [Segment],
     /// From this index on they are obstacles, before it walls.
     pub obstacles_from: usize,
-    /// What the robot's middle keeps from barriers, metres.
+    pub rim: Rim,
+    /// What the robot keeps from barriers, metres, as [`Rim::distance`] has it.
     pub reach: f64,
     /// What it keeps from barriers at the goal, at the least, metres.
     pub least: f64,
@@ -31,6 +33,7 @@ pub(super) struct Field {
     barriers: Vec<Segment>,
     /// Lines that no path crosses, though it may come near them.
     cuts: Vec<Segment>,
+    rim: Rim,
     reach: f64,
     least: f64,
     grain: f64,
@@ -38,30 +41,30 @@ pub(super) struct Field {
 
 impl Field {
     pub fn new(window: Rect, ground: &Ground) -> Self {
-        let Ground { barriers, reach, least, grain, .. } = *ground;
+        let Ground { barriers, rim, reach, least, grain, .. } = *ground;
         let is_near = |barrier: &&Segment| {
             let (dx, dy) = barrier.bounds().axis_gaps(&window);
-            dx.max(dy) <= reach
+            dx.max(dy) <= reach + rim.core_m()
         };
         let barriers: Vec<Segment> = barriers.iter().filter(is_near).copied().collect();
         let mut grid = FreeGrid::new(window, grain);
         for barrier in &barriers {
-            grid.block(barrier, reach);
+            grid.block(&rim, barrier, reach);
         }
-        Self { grid, barriers, cuts: Vec::new(), reach, least, grain }
+        Self { grid, barriers, cuts: Vec::new(), rim, reach, least, grain }
     }
 
     /// The same for paths that do not cross a line.
     pub fn cut(&self, line: &Segment) -> Self {
         let mut field = self.clone();
-        field.grid.block(line, 0.75 * self.grain);
+        field.grid.block(&Rim::disc(0.0), line, 0.75 * self.grain);
         field.cuts.push(*line);
         field
     }
 
     /// The shortest path, straight from point to point; its ends may be nearer to barriers than the rest.
     pub fn path(&self, from: Point, to: Point) -> Option<Vec<Point>> {
-        if self.barriers.iter().any(|barrier| barrier.distance(to) < self.least) {
+        if self.barriers.iter().any(|barrier| self.rim.distance(to, barrier) < self.least) {
             return None;
         }
         if self.is_clear(from, to) {
@@ -77,6 +80,6 @@ impl Field {
 
     fn is_clear(&self, from: Point, to: Point) -> bool {
         let is_crossed = |cut: &Segment| Segment::new(from, to).meets(cut);
-        is_clear(from, to, self.reach, &self.barriers) && !self.cuts.iter().any(is_crossed)
+        is_clear(&self.rim, from, to, self.reach, &self.barriers) && !self.cuts.iter().any(is_crossed)
     }
 }

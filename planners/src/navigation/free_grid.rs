@@ -1,8 +1,9 @@
-//! Where the middle of a disc can be, as cells of a grid.
+//! Where the middle of a robot can be, as cells of a grid.
 
 use fixedbitset::FixedBitSet;
 
 use crate::geometry::{Point, Rect, Segment};
+use crate::rim::Rim;
 use crate::search::grid::{around, least_cost, least_costs};
 
 /// A cell is free if its middle is.
@@ -25,12 +26,13 @@ impl FreeGrid {
         Self { origin: Point::new(window.x0, window.y0), grain, columns, rows, free }
     }
 
-    /// Takes away what is nearer than `reach` to a segment.
-    pub fn block(&mut self, segment: &Segment, reach: f64) {
+    /// Takes away where a robot is [nearer](Rim::distance) than `reach` to a segment.
+    pub fn block(&mut self, rim: &Rim, segment: &Segment, reach: f64) {
         let (a, b) = (segment.a, segment.b);
-        let first = |low: f64, origin: f64| ((low - reach - origin) / self.grain).floor().max(0.0) as usize;
+        let about = reach + rim.core_m();
+        let first = |low: f64, origin: f64| ((low - about - origin) / self.grain).floor().max(0.0) as usize;
         let last = |high: f64, origin: f64, count: usize| {
-            let index = ((high + reach - origin) / self.grain).ceil();
+            let index = ((high + about - origin) / self.grain).ceil();
             if index < 0.0 { 0 } else { (index as usize + 1).min(count) }
         };
         let columns = first(a.x.min(b.x), self.origin.x)..last(a.x.max(b.x), self.origin.x, self.columns);
@@ -38,7 +40,7 @@ impl FreeGrid {
         for row in rows {
             for column in columns.clone() {
                 let cell = row * self.columns + column;
-                if self.free.contains(cell) && segment.distance(self.at(cell)) < reach {
+                if self.free.contains(cell) && rim.distance(self.at(cell), segment) < reach {
                     self.free.remove(cell);
                 }
             }

@@ -1,12 +1,13 @@
-//! Free way for a disc that goes straight.
+//! Free way for a robot that goes straight, as it stands.
 
 use crate::geometry::tolerance::ROUNDING_M;
 use crate::geometry::{Point, Segment};
+use crate::rim::Rim;
 
-/// A disc that is nearer to a surface than it should be may go along it; so much nearer it may come, metres.
+/// A robot that is nearer to a surface than it should be may go along it; so much nearer it may come, metres.
 const SLIDE_M: f64 = 0.005;
 
-/// How far a disc gets is found so finely, metres: no wheels are stopped more finely.
+/// How far a robot gets is found so finely, metres: no wheels are stopped more finely.
 const FINE_M: f64 = 1e-4;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,28 +18,34 @@ pub(super) struct Free {
     pub by: Option<usize>,
 }
 
-/// How far the middle of a disc can go from one point towards another before it is nearer than `reach` to a barrier.
-/// Where it is nearer from the start, it may go along or away; where the goal is nearer, it may come as near, but no nearer
+/// How far the middle of a robot can go from one point towards another before it is [nearer](Rim::distance) than `reach` to a
+/// barrier. Where it is nearer from the start, it may go along or away; where the goal is nearer, it may come as near, but no nearer
 /// than `least`.
-pub(super) fn free_ahead(from: Point, to: Point, [least, reach]: [f64; 2], barriers: &[Segment]) -> Free {
+pub(super) fn free_ahead(
+    rim: &Rim,
+    from: Point,
+    to: Point,
+    [least, reach]: [f64; 2],
+    barriers: &[Segment],
+) -> Free {
     let whole = from.distance(to);
     let mut free = Free { metres: whole, by: None };
     for (index, barrier) in barriers.iter().enumerate() {
-        let reach = reach.min(barrier.distance(to).max(least));
-        if let Some(metres) = hit(from, to, reach, barrier).filter(|metres| *metres < free.metres) {
+        let reach = reach.min(rim.distance(to, barrier).max(least));
+        if let Some(metres) = hit(rim, (from, to), reach, barrier).filter(|metres| *metres < free.metres) {
             free = Free { metres, by: Some(index) };
         }
     }
     free
 }
 
-/// Whether a disc can go straight from one point to another, nowhere nearer to a barrier than `reach`; than at its ends,
+/// Whether a robot can go straight from one point to another, nowhere nearer to a barrier than `reach`; than at its ends,
 /// where those are nearer.
-pub(super) fn is_clear(from: Point, to: Point, reach: f64, barriers: &[Segment]) -> bool {
+pub(super) fn is_clear(rim: &Rim, from: Point, to: Point, reach: f64, barriers: &[Segment]) -> bool {
     barriers.iter().all(|barrier| {
-        is_far(from, to, reach, barrier) || {
-            let least = reach.min(barrier.distance(from)).min(barrier.distance(to));
-            Segment::new(from, to).gap(barrier) >= least - ROUNDING_M
+        is_far(rim, (from, to), reach, barrier) || {
+            let least = reach.min(rim.distance(from, barrier)).min(rim.distance(to, barrier));
+            rim.way_distance(&Segment::new(from, to), barrier) >= least - ROUNDING_M
         }
     })
 }
@@ -55,35 +62,36 @@ pub(super) fn straightened(points: &[Point], is_clear: impl Fn(Point, Point) -> 
     kept
 }
 
-fn hit(from: Point, to: Point, reach: f64, barrier: &Segment) -> Option<f64> {
-    if is_far(from, to, reach, barrier) {
+fn hit(rim: &Rim, (from, to): (Point, Point), reach: f64, barrier: &Segment) -> Option<f64> {
+    if is_far(rim, (from, to), reach, barrier) {
         return None;
     }
-    let nearest = Segment::new(from, to).gap(barrier);
-    let now = barrier.distance(from);
+    let nearest = rim.way_distance(&Segment::new(from, to), barrier);
+    let now = rim.distance(from, barrier);
     if now < reach {
         return (nearest < now - SLIDE_M).then_some(0.0);
     }
     // what is only just far enough away may be slid along, too
     let reach = reach.min(now - SLIDE_M);
-    (nearest < reach).then(|| first_within(from, to, reach, barrier))
+    (nearest < reach).then(|| first_within(rim, (from, to), reach, barrier))
 }
 
 /// The distance to a segment falls until it is least, and then rises: a point before that is found by halving.
-fn first_within(from: Point, to: Point, reach: f64, barrier: &Segment) -> f64 {
+fn first_within(rim: &Rim, (from, to): (Point, Point), reach: f64, barrier: &Segment) -> f64 {
     let whole = from.distance(to);
     let (mut low, mut high) = (0.0, whole);
     while high - low > FINE_M {
         let middle = f64::midpoint(low, high);
-        let is_met = Segment::new(from, from.lerp(to, middle / whole)).gap(barrier) < reach;
+        let way = Segment::new(from, from.lerp(to, middle / whole));
+        let is_met = rim.way_distance(&way, barrier) < reach;
         (low, high) = if is_met { (low, middle) } else { (middle, high) };
     }
     low
 }
 
-fn is_far(from: Point, to: Point, reach: f64, barrier: &Segment) -> bool {
+fn is_far(rim: &Rim, (from, to): (Point, Point), reach: f64, barrier: &Segment) -> bool {
     let (dx, dy) = Segment::new(from, to).bounds().axis_gaps(&barrier.bounds());
-    dx.max(dy) > reach
+    dx.max(dy) > reach + rim.core_m()
 }
 
 #[cfg(test)]
@@ -95,7 +103,7 @@ mod tests {
     fn ahead(barrier: [f64; 4]) -> f64 {
         let [x0, y0, x1, y1] = barrier;
         let barrier = Segment::new(Point::new(x0, y0), Point::new(x1, y1));
-        free_ahead(EAST[0], EAST[1], [0.3, 0.3], &[barrier]).metres
+        free_ahead(&Rim::disc(0.3), EAST[0], EAST[1], [0.3, 0.3], &[barrier]).metres
     }
 
     #[test]
@@ -114,7 +122,7 @@ mod tests {
     #[test]
     fn a_goal_near_a_wall_may_be_gone_to_as_far_as_the_disc_fits() {
         let beside = |y: f64| Segment::new(Point::new(3.5, y), Point::new(5.0, y));
-        let free = |y: f64| free_ahead(EAST[0], EAST[1], [0.25, 0.3], &[beside(y)]).metres;
+        let free = |y: f64| free_ahead(&Rim::disc(0.3), EAST[0], EAST[1], [0.25, 0.3], &[beside(y)]).metres;
         assert!((free(0.26) - 4.0).abs() < 1e-9);
         assert!(free(0.24) < 3.5);
     }

@@ -1,13 +1,25 @@
 //! What the navigator knows of the building, and of obstacles in it.
 
+use std::f64::consts::{FRAC_PI_2, PI};
+
 use super::Settings;
 use crate::floor_plan::{Disc, FloorPlan, Network};
 use crate::geometry::{Point, Segment};
 use crate::local_model::{LocalModel, ModelSegment, SegmentId, Source};
+use crate::pose::wrapped;
+use crate::rim::Rim;
 
 /// A building that is known before a mission: the global model and the network of places.
+///
+/// It is so for a robot in one stance: in a shape, and, where that is longer than wide, at one of its facings.
 #[derive(Clone, Debug)]
 pub struct Building {
+    /// The shape, by number.
+    pub shape: usize,
+    /// Radians; half a turn shows the robot the same. `None` for a shape that turns on the spot.
+    pub facing: Option<f64>,
+    /// Of the robot, as it stands there.
+    pub rim: Rim,
     pub network: Network,
     /// The surfaces of the global model.
     pub walls: Vec<Segment>,
@@ -27,13 +39,34 @@ impl Building {
 
     /// Walls, and nothing that a sonar does not hear.
     pub fn of_walls(network: Network, walls: Vec<Segment>) -> Self {
-        Self { network, walls, overhead: Vec::new(), floor: Vec::new(), closed: Vec::new() }
+        let rim = Rim::disc(network.disc.radius);
+        let (overhead, floor, closed) = (Vec::new(), Vec::new(), Vec::new());
+        Self { shape: 0, facing: None, rim, network, walls, overhead, floor, closed }
+    }
+
+    /// The same for a robot in another stance, whose rim is told as it is at heading 0.
+    #[must_use]
+    pub fn in_stance(self, shape: usize, rim: &Rim, facing: Option<f64>) -> Self {
+        Self { shape, facing, rim: rim.turned(facing.unwrap_or(0.0)), ..self }
+    }
+
+    /// By how much a robot is off its facing, radians; 0 for one that turns on the spot.
+    pub fn off_facing(&self, heading: f64) -> f64 {
+        self.facing.map_or(0.0, |facing| {
+            let off = wrapped(facing - heading);
+            if off.abs() > FRAC_PI_2 { wrapped(off + PI) } else { off }
+        })
     }
 
     /// A building of which nothing is known, for a robot.
     pub fn unknown(disc: Disc) -> Self {
         Self::of_walls(Network::none(disc), Vec::new())
     }
+}
+
+/// How many shapes the robot has that stands in a building in these stances.
+pub(super) fn shapes(stances: &[Building]) -> usize {
+    stances.iter().map(|stance| stance.shape + 1).max().unwrap_or(0)
 }
 
 /// Obstacles that the local model has dropped because they are far.

@@ -2,7 +2,7 @@
 
 use super::Navigator;
 use super::judge::Judge;
-use super::known::Building;
+use super::known::{Building, shapes};
 use super::mission::{Entry, Outfit};
 use super::router::Router;
 use super::run::run;
@@ -14,11 +14,11 @@ use crate::pose::Pose;
 /// Has a body driven from where it is said to stand to a goal.
 ///
 /// # Arguments
-/// `buildings` is the building as it is known, for each shape of the robot, with the number of the shape in which it is. `router`
+/// `buildings` is the building as it is known, for each stance of the robot, with the number of the stance in which it is. `router`
 /// finds the ways, where somebody else than the navigator does. `journal` gets every event.
 pub fn trip<B: Body>(
     body: &mut B,
-    (buildings, shape): (&[Building], usize),
+    (buildings, stance): (&[Building], usize),
     (start, goal): (Pose, Point),
     outfit: &Outfit,
     router: Option<&mut dyn Router>,
@@ -26,8 +26,8 @@ pub fn trip<B: Body>(
     mut journal: impl FnMut(Entry),
 ) -> Trip {
     let mut navigator =
-        Navigator::of_shapes((buildings, shape), outfit.model, outfit.navigation, outfit.estimate(start));
-    let mut trip = Trip::begun(start.at, shape, buildings.len());
+        Navigator::of_stances((buildings, stance), outfit.model, outfit.navigation, outfit.estimate(start));
+    let mut trip = Trip::begun(start.at, buildings[stance].shape, shapes(buildings));
     let (mut before, mut since_s) = (navigator.odometry(), None);
     let ending = run(body, &mut navigator, goal, router, judge, |_, navigator, events| {
         let (counted, now_s) = (navigator.odometry(), navigator.time_s());
@@ -36,7 +36,8 @@ pub fn trip<B: Body>(
             seconds: now_s - since_s.unwrap_or(now_s),
             is_under_way: navigator.is_busy() && since_s.is_some(),
         };
-        trip.note(&step, (navigator.estimate().pose.at, navigator.shape()), &events);
+        let now = (navigator.estimate().pose.at, navigator.shape());
+        trip.note(&step, now, Some(navigator.stance()), &events);
         (before, since_s) = (counted, Some(now_s));
         for event in events {
             journal(Entry { event, truth: None });

@@ -1,7 +1,7 @@
 //! Missions in a simulated building, and how they went.
 
 use super::judge::{Action, Judge, StateDecision};
-use super::known::Building;
+use super::known::{Building, shapes};
 use super::router::Router;
 use super::run::Run;
 use super::trip::{Advance, Trip};
@@ -110,16 +110,16 @@ pub struct Drivable<'w> {
     pub walls: &'w [Segment],
     /// The robot's shapes; `None` for one that stays as its outfit has it.
     pub shapes: Option<&'w Shapes>,
-    /// The shape in which it begins, by number.
-    pub shape: usize,
-    /// The building as it is known to the robot, in each of its shapes.
+    /// The stance in which it begins, by number.
+    pub stance: usize,
+    /// The building as it is known to the robot, in each of its stances.
     pub buildings: &'w [Building],
 }
 
 impl<'w> Drivable<'w> {
     /// Walls, and a building that the robot knows.
     pub const fn of(walls: &'w [Segment], building: &'w Building) -> Self {
-        Self { walls, shapes: None, shape: 0, buildings: std::slice::from_ref(building) }
+        Self { walls, shapes: None, stance: 0, buildings: std::slice::from_ref(building) }
     }
 }
 
@@ -165,7 +165,7 @@ impl Mission {
     pub fn body(&self, on: &Drivable<'_>, outfit: &Outfit) -> Result<Simulator, SimulationError> {
         let body = Simulator::new(on.walls, self.obstacles.clone(), outfit.robot, self.start, self.seed)?;
         match on.shapes {
-            Some(shapes) => body.in_shape(shapes.clone(), on.shape),
+            Some(shapes) => body.in_shape(shapes.clone(), on.buildings[on.stance].shape),
             None => Ok(body),
         }
     }
@@ -184,9 +184,9 @@ impl Mission {
         let body = self.body(on, outfit)?;
         let start = outfit.estimate(self.start);
         let mut navigator =
-            Navigator::of_shapes((on.buildings, on.shape), outfit.model, outfit.navigation, start);
+            Navigator::of_stances((on.buildings, on.stance), outfit.model, outfit.navigation, start);
         let run = Run::begin(&mut navigator, self.goal, by_route, judge);
-        let outcome = Outcome::begun(&body, on.buildings.len());
+        let outcome = Outcome::begun(&body, shapes(on.buildings));
         Ok(Underway {
             body,
             navigator,
@@ -311,7 +311,8 @@ impl<'b> Underway<'b> {
             seconds: self.body.time_s() - since_s,
             is_under_way: self.navigator.is_busy(),
         };
-        self.outcome.trip.note(&step, (truth.at, self.body.shape()), &events);
+        let stance = Some(self.navigator.stance());
+        self.outcome.trip.note(&step, (truth.at, self.body.shape()), stance, &events);
         self.outcome.note(&self.body, &self.navigator);
         (ending, events.into_iter().map(|event| Entry { event, truth: Some(truth) }).collect())
     }

@@ -24,6 +24,7 @@ use crate::body::{Body, Command, Contact, Reading, Sensed};
 use crate::geometry::{Point, Segment};
 use crate::local_model::{Estimate, LocalModel};
 use crate::pose::Pose;
+use crate::rim::Rim;
 use locating::Whereabouts;
 
 /// A touch is ahead of a course if the cosine of its bearing is larger.
@@ -42,9 +43,9 @@ const SHORT_M: f64 = 0.01;
 /// Drives a body through a known building, with obstacles that are not known.
 #[derive(Clone, Debug)]
 pub struct Navigator<'b> {
-    /// The building as it is for the robot in each of its shapes, by number.
-    shapes: &'b [Building],
-    /// As it is for the robot in the shape in which it is.
+    /// The building as it is for the robot in each of its stances, by number.
+    stances: &'b [Building],
+    /// As it is for the robot in the stance in which it is.
     building: &'b Building,
     settings: Settings,
     model: LocalModel,
@@ -65,7 +66,7 @@ pub struct Navigator<'b> {
     came_from: Point,
     /// What of a way that somebody else found comes after these legs.
     stretches: VecDeque<Stretch>,
-    /// The shape that these legs ask for.
+    /// The stance that these legs ask for, by number.
     needed: usize,
     /// Whether somebody else is to find another way.
     wants_way: bool,
@@ -78,7 +79,8 @@ pub struct Navigator<'b> {
     /// Times that a path with hardly any room was taken for want of another one.
     squeezes: u32,
     replans: u32,
-    radius_m: f64,
+    /// Of the body, as it stands.
+    rim: Rim,
     /// Into how many directions the body measures.
     directions: usize,
     sensed: Option<Sensed>,
@@ -123,11 +125,13 @@ struct Line {
 struct Course {
     from: Pose,
     distance_m: f64,
+    /// Where that is, radians from the heading.
+    bearing: f64,
 }
 
 impl Course {
     fn leads_to(&self, contact: Contact) -> bool {
-        self.distance_m.signum() * contact.bearing.cos() > SIDEWAYS
+        self.distance_m.signum() * (contact.bearing - self.bearing).cos() > SIDEWAYS
     }
 
     /// Whether it ended where it began.
@@ -153,25 +157,25 @@ impl<'b> Navigator<'b> {
         settings: Settings,
         start: Estimate,
     ) -> Self {
-        Self::of_shapes((std::slice::from_ref(building), 0), model, settings, start)
+        Self::of_stances((std::slice::from_ref(building), 0), model, settings, start)
     }
 
-    /// As [`Self::new`], for a body that changes its shape.
+    /// As [`Self::new`], for a body that changes its shape, or keeps a facing.
     ///
     /// # Arguments
-    /// The building as it is for the robot in each shape, and the shape in which it is.
+    /// The building as it is for the robot in each stance, and the stance in which it is.
     ///
     /// # Panics
-    /// Where there is no such shape.
-    pub fn of_shapes(
-        (shapes, shape): (&'b [Building], usize),
+    /// Where there is no such stance.
+    pub fn of_stances(
+        (stances, stance): (&'b [Building], usize),
         model: crate::local_model::Settings,
         settings: Settings,
         start: Estimate,
     ) -> Self {
-        let building = &shapes[shape];
+        let building = &stances[stance];
         Self {
-            shapes,
+            stances,
             building,
             settings,
             model: LocalModel::new(model, start),
@@ -188,7 +192,7 @@ impl<'b> Navigator<'b> {
             legs: VecDeque::new(),
             came_from: start.pose.at,
             stretches: VecDeque::new(),
-            needed: shape,
+            needed: stance,
             wants_way: false,
             line: Line::default(),
             has_way: true,
@@ -198,7 +202,7 @@ impl<'b> Navigator<'b> {
             retries: 0,
             squeezes: 0,
             replans: 0,
-            radius_m: building.network.disc.radius,
+            rim: building.rim,
             directions: 1,
             sensed: None,
             contact: None,
@@ -234,12 +238,18 @@ impl<'b> Navigator<'b> {
 
     /// The shape in which the body is, by number.
     pub fn shape(&self) -> usize {
-        self.sensed.as_ref().map_or(self.needed, |sensed| sensed.shape)
+        self.sensed.as_ref().map_or(self.building.shape, |sensed| sensed.shape)
     }
 
-    /// The building as it is for the robot in each of its shapes.
-    pub(super) fn shapes(&self) -> &'b [Building] {
-        self.shapes
+    /// The stance in which it is, by number.
+    pub fn stance(&self) -> usize {
+        let is_own = |stance: &Building| std::ptr::eq(stance, self.building);
+        self.stances.iter().position(is_own).unwrap_or(self.needed)
+    }
+
+    /// The building as it is for the robot in each of its stances.
+    pub(super) fn stances(&self) -> &'b [Building] {
+        self.stances
     }
 
     /// The goal points that are left, in order.
@@ -336,7 +346,7 @@ impl<'b> Navigator<'b> {
         if self.sensed.as_ref().is_some_and(|sensed| !sensed.is_busy)
             && let Some(then_m) = self.then_m.take()
         {
-            self.drive_straight(body, then_m);
+            self.drive_straight(body, then_m, 0.0);
             return None;
         }
         self.look_for_detours();

@@ -35,8 +35,9 @@ pub(super) fn over_network(
             Ok(path) => {
                 let lead = (start != from).then_some(from);
                 let points: Vec<Point> = lead.into_iter().chain(path.points).collect();
-                let points =
-                    straightened(&points, |from, to| is_clear(from, to, ground.reach, ground.barriers));
+                let points = straightened(&points, |from, to| {
+                    is_clear(&ground.rim, from, to, ground.reach, ground.barriers)
+                });
                 return Some(Route { length_m: path_length(&points), points, is_off_network: false });
             }
             Err(NoPath::Start) => {}
@@ -66,6 +67,6 @@ fn starts(from: Point, ground: &Ground) -> impl Iterator<Item = Point> {
             Point::new(from.x + radius * cos, from.y + radius * sin)
         })
     });
-    let (barriers, reach) = (ground.barriers, ground.reach);
-    std::iter::once(from).chain(around.filter(move |&at| is_clear(from, at, reach, barriers)))
+    let (barriers, reach, rim) = (ground.barriers, ground.reach, ground.rim);
+    std::iter::once(from).chain(around.filter(move |&at| is_clear(&rim, from, at, reach, barriers)))
 }

@@ -18,12 +18,12 @@ pub struct Met {
 
 /// Finds ways for a robot.
 pub trait Router {
-    /// The best way for a robot in a shape, from where it is to its goal, or to where it can tell where it is; `None` where there is
+    /// The best way for a robot in a stance, from where it is to its goal, or to where it can tell where it is; `None` where there is
     /// none.
     ///
     /// # Arguments
     /// `met` is where the robot found its way closed, the latest last; none of it any more after it has begun anew.
-    fn way(&mut self, ends: [Point; 2], shape: usize, met: &[Met]) -> Option<Vec<Stretch>>;
+    fn way(&mut self, ends: [Point; 2], stance: usize, met: &[Met]) -> Option<Vec<Stretch>>;
 
     /// How much of what the robot met was passed on to everybody, and how much taken back, since this was asked last.
     fn take_told(&mut self) -> [usize; 2] {

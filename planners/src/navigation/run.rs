@@ -72,11 +72,11 @@ impl Run {
     }
 
     fn way(&self, navigator: &mut Navigator<'_>, router: &mut dyn Router, to: Point) -> Option<Vec<Stretch>> {
-        let (from, shape) = (navigator.estimate().pose.at, navigator.shape());
-        let way = router.way([from, to], shape, &self.met).map(|way| begun_in(shape, from, way));
+        let (from, stance) = (navigator.estimate().pose.at, navigator.stance());
+        let way = router.way([from, to], stance, &self.met).map(|way| begun_in(stance, from, way));
         navigator.has_told(router.take_told());
         let met_there = navigator.surfaces();
-        way.map(|way| with_room(way, navigator.shapes(), &met_there, navigator.settings()))
+        way.map(|way| with_room(way, navigator.stances(), &met_there, navigator.settings()))
     }
 }
 
@@ -104,11 +104,11 @@ pub fn run<B: Body>(
     }
 }
 
-/// A way that begins where the robot is, in the shape that it has.
-fn begun_in(shape: usize, from: Point, mut way: Vec<Stretch>) -> Vec<Stretch> {
-    let first = way.first().filter(|first| first.shape != shape);
+/// A way that begins where the robot is, in the stance that it has.
+fn begun_in(stance: usize, from: Point, mut way: Vec<Stretch>) -> Vec<Stretch> {
+    let first = way.first().filter(|first| first.stance != stance);
     if let Some(to) = first.and_then(|first| first.points.first().copied()) {
-        way.insert(0, Stretch { shape, points: vec![from, to] });
+        way.insert(0, Stretch { stance, points: vec![from, to] });
     }
     way
 }

@@ -55,6 +55,7 @@ settings! {
             most_contradicted: u32 = 5, "most_contradicted", "", Times, "Where more beams side by side run through known walls, the robot is elsewhere.";
             most_searches: u32 = 6, "most_searches", "", Times, "So many times on a mission the robot looks for itself over the whole building before it is lost.";
             most_seeks: u32 = 3, "most_seeks", "", Times, "So many times on a mission it goes where known walls tell where it is.";
+            off_facing: degrees = 1.0, "off_facing", "°", Positive, "A robot that is longer than wide turns back to its facing where it is off that by more.";
             patience_s: f64 = 3600.0, "patience", "s", Positive, "After so long a mission is given up.";
         }
     }

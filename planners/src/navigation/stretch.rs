@@ -1,4 +1,4 @@
-//! Parts of a way, each gone in one shape.
+//! Parts of a way, each gone in one stance: in one shape, at one facing.
 
 use std::f64::consts::TAU;
 
@@ -6,12 +6,13 @@ use super::Settings;
 use super::known::Building;
 use crate::geometry::tolerance::ROUNDING_M;
 use crate::geometry::{Point, Segment};
+use crate::rim::Rim;
 
-/// A part of a way that is gone in one shape.
+/// A part of a way that is gone in one stance.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stretch {
     /// By number.
-    pub shape: usize,
+    pub stance: usize,
     /// From where it begins, which is where the one before it ends.
     pub points: Vec<Point>,
 }
@@ -25,27 +26,27 @@ const DIRECTIONS: usize = 16;
 const MOVES: usize = 4;
 const SHARES: [f64; 4] = [1.0, 0.5, 0.25, 0.125];
 
-/// The same way for a robot that is not exactly where it thinks that it is: it changes its shape where there is room for that,
-/// in both shapes, up to `change_reach` before or behind where the way says; and its points keep `room` free where that does
+/// The same way for a robot that is not exactly where it thinks that it is: it changes its stance where there is room for that,
+/// in both stances, up to `change_reach` before or behind where the way says; and its points keep `room` free where that does
 /// not lead nearer to anything else.
 ///
 /// # Arguments
-/// `shapes` is the building as it is for the robot in each shape, `met` what it met there and did not know of.
+/// `stances` is the building as it is for the robot in each stance, `met` what it met there and did not know of.
 pub(super) fn with_room(
     mut way: Vec<Stretch>,
-    shapes: &[Building],
+    stances: &[Building],
     met: &[Segment],
     settings: &Settings,
 ) -> Vec<Stretch> {
-    way.retain(|stretch| shapes.get(stretch.shape).is_some());
+    way.retain(|stretch| stances.get(stretch.stance).is_some());
     for next in 1..way.len() {
         let (before, after) = way.split_at_mut(next);
         if let (Some(one), Some(other)) = (before.last_mut(), after.first_mut()) {
-            change_with_room(one, other, (shapes, met), settings);
+            change_with_room(one, other, (stances, met), settings);
         }
     }
     for stretch in &mut way {
-        let near = Near::of((&shapes[stretch.shape], met), &stretch.points, settings);
+        let near = Near::of((&stances[stretch.stance], met), &stretch.points, settings);
         for place in 1..stretch.points.len().saturating_sub(1) {
             near.move_away(&mut stretch.points, place, settings.detour_room_m);
         }
@@ -54,19 +55,19 @@ pub(super) fn with_room(
     way
 }
 
-/// Moves the point at which one stretch goes over into the other to the nearest one at which there is room for both shapes; to the
+/// Moves the point at which one stretch goes over into the other to the nearest one at which there is room for both stances; to the
 /// one with most room, where there is not enough anywhere near.
 fn change_with_room(
     one: &mut Stretch,
     other: &mut Stretch,
-    (shapes, met): (&[Building], &[Segment]),
+    (stances, met): (&[Building], &[Segment]),
     settings: &Settings,
 ) {
     let Some(&change) = one.points.last() else { return };
     let before = one.points.iter().rev().nth(1).copied().unwrap_or(change);
     let after = other.points.get(1).copied().unwrap_or(change);
     let [near_one, near_other] = [&one, &other]
-        .map(|stretch| Near::of((&shapes[stretch.shape], met), &[before, change, after], settings));
+        .map(|stretch| Near::of((&stances[stretch.stance], met), &[before, change, after], settings));
     let need = settings.change_room_m;
     let room = |at: Point| near_one.gap(at, at).min(near_other.gap(at, at)).min(need);
     // straight there, or by way of where the route changes; as near to things as the route itself, or as ways may be
@@ -107,26 +108,32 @@ fn change_with_room(
 
 /// What stands and hangs near a path.
 struct Near {
-    radius_m: f64,
+    rim: Rim,
     barriers: Vec<Segment>,
 }
 
 impl Near {
     fn of((building, met): (&Building, &[Segment]), points: &[Point], settings: &Settings) -> Self {
-        let radius_m = building.network.disc.radius;
-        let reach = radius_m + settings.change_room_m.max(settings.detour_room_m) + settings.change_reach_m;
+        let rim = building.rim;
+        let room = settings.change_room_m.max(settings.detour_room_m);
+        let reach = rim.outer_m() + room + settings.change_reach_m;
         let is_near = |barrier: &&Segment| {
             points.windows(2).any(|leg| Segment::new(leg[0], leg[1]).gap(barrier) <= reach)
                 || points.first().is_some_and(|at| barrier.distance(*at) <= reach)
         };
         let all = building.walls.iter().chain(&building.overhead).chain(met);
-        Self { radius_m, barriers: all.filter(is_near).copied().collect() }
+        Self { rim, barriers: all.filter(is_near).copied().collect() }
     }
 
     /// Metres that are free beside the robot's rim on a straight way.
     fn gap(&self, from: Point, to: Point) -> f64 {
         let way = Segment::new(from, to);
-        self.barriers.iter().map(|barrier| way.gap(barrier)).fold(f64::INFINITY, f64::min) - self.radius_m
+        self.barriers.iter().map(|barrier| self.room(&way, barrier)).fold(f64::INFINITY, f64::min)
+    }
+
+    /// The same beside one of the barriers.
+    fn room(&self, way: &Segment, barrier: &Segment) -> f64 {
+        self.rim.way_distance(way, barrier) - self.rim.radius_m()
     }
 
     /// The same path with fewer points, as far as that leads no nearer to anything than the path itself, or than `room`.
@@ -142,8 +149,8 @@ impl Near {
                 let straight = Segment::new(points[at], points[far]);
                 let mut all = self.barriers.iter().zip(&mut least);
                 let leads_nearer = all.any(|(barrier, least)| {
-                    *least = least.min(leg.gap(barrier) - self.radius_m);
-                    straight.gap(barrier) - self.radius_m < *least - ROUNDING_M
+                    *least = least.min(self.room(&leg, barrier));
+                    self.room(&straight, barrier) < *least - ROUNDING_M
                 });
                 if leads_nearer {
                     break;
@@ -174,10 +181,11 @@ impl Near {
     /// A point so far away from what is nearest to a point that `room` would be free if nothing else stood there; `None` where it
     /// is free.
     fn away(&self, at: Point, room: f64) -> Option<Point> {
-        let feet = self.barriers.iter().map(|barrier| barrier.nearest_to(at));
-        let foot = feet.min_by(|one, other| at.distance(*one).total_cmp(&at.distance(*other)))?;
+        let far_from = |barrier: &&Segment| self.rim.distance(at, barrier);
+        let nearest = self.barriers.iter().min_by(|one, other| far_from(one).total_cmp(&far_from(other)))?;
+        let foot = self.rim.nearest_on(at, nearest);
+        let lacks = self.rim.radius_m() + room - far_from(&nearest);
         let far = at.distance(foot);
-        let lacks = self.radius_m + room - far;
         (lacks > ROUNDING_M && far > 0.0).then(|| at + (at - foot) * (lacks / far))
     }
 }
@@ -201,7 +209,7 @@ mod tests {
         let pipe = vec![line(4.0, 0.0, 4.0, 3.0), line(5.0, 0.0, 5.0, 3.0)];
         let shapes = [building(0.3, pipe), building(0.4, Vec::new())];
         let at = |x: f64| Point::new(x, y);
-        let stretch = |shape, from: f64, to: f64| Stretch { shape, points: vec![at(from), at(to)] };
+        let stretch = |shape, from: f64, to: f64| Stretch { stance: shape, points: vec![at(from), at(to)] };
         let way = vec![stretch(0, 1.0, 3.7), stretch(1, 3.7, 5.3), stretch(0, 5.3, 9.0)];
         with_room(way, &shapes, &[], &Settings::default())
     }
@@ -226,7 +234,7 @@ mod tests {
     fn a_bend_about_what_was_met_stays() {
         let met = [line(4.0, 0.6, 5.0, 0.6)];
         let points = vec![Point::new(1.0, 0.6), Point::new(4.5, 1.1), Point::new(8.0, 0.6)];
-        let way = vec![Stretch { shape: 0, points }];
+        let way = vec![Stretch { stance: 0, points }];
         let bends = |met: &[Segment]| {
             let way = with_room(way.clone(), &[building(0.3, Vec::new())], met, &Settings::default());
             way[0].points.len() - 2
@@ -242,7 +250,7 @@ mod tests {
         let corner = line(5.0, 0.0, 5.0, 1.0);
         let building = Building { overhead: vec![corner], ..building(0.3, Vec::new()) };
         let points = vec![Point::new(2.0, 0.5), Point::new(5.0, 1.3), Point::new(8.0, 0.5)];
-        let way = with_room(vec![Stretch { shape: 0, points }], &[building], &[], &Settings::default());
+        let way = with_room(vec![Stretch { stance: 0, points }], &[building], &[], &Settings::default());
         assert!(way[0].points[1].distance(Point::new(5.0, 1.4)) < 1e-9, "{way:?}");
     }
 
@@ -251,7 +259,7 @@ mod tests {
         let walls = vec![line(0.0, 0.0, 10.0, 0.0), line(0.0, 0.64, 10.0, 0.64)];
         let building = Building::of_walls(Network::none(Disc { radius: 0.3, margin: 0.0 }), walls);
         let points = vec![Point::new(2.0, 0.32), Point::new(5.0, 0.302), Point::new(8.0, 0.32)];
-        let way = with_room(vec![Stretch { shape: 0, points }], &[building], &[], &Settings::default());
+        let way = with_room(vec![Stretch { stance: 0, points }], &[building], &[], &Settings::default());
         let off = way[0].points.iter().map(|at| (at.y - 0.32).abs()).fold(0.0, f64::max);
         assert!(off < 0.005, "{way:?}");
     }

@@ -1,12 +1,7 @@
 //! Several simulated robots in one building: what each of them finds in its way besides walls.
 
-use std::f64::consts::TAU;
-
 use super::mission::Underway;
 use crate::geometry::{Point, Segment, polygon};
-
-/// A robot looks to others like a polygon of so many sides about it.
-const SIDES: usize = 24;
 
 /// A leaf is so thick, metres.
 const LEAF_M: f64 = 0.04;
@@ -36,8 +31,8 @@ impl Door {
     pub fn follow(&mut self, time_s: f64, robots: &[Underway<'_>]) {
         let is_to_be_shut = self.times_s.iter().any(|[from, to]| (*from..*to).contains(&time_s));
         let stands_in_it = |robot: &Underway<'_>| {
-            let (at, radius) = (robot.body().pose().at, robot.body().widest_m());
-            polygon::sides(&self.leaf).any(|side| side.distance(at) <= radius + LEAF_M)
+            let (at, rim) = (robot.body().pose().at, robot.body().widest());
+            polygon::sides(&self.leaf).any(|side| rim.distance(at, &side) <= rim.radius_m() + LEAF_M)
         };
         self.is_shut = is_to_be_shut && (self.is_shut || !robots.iter().any(stands_in_it));
     }
@@ -46,17 +41,7 @@ impl Door {
 /// What stands about one of several robots: the others, and the doors that are shut, by their corners.
 pub fn things_about(which: usize, robots: &[Underway<'_>], doors: &[Door]) -> Vec<Vec<Point>> {
     let others = robots.iter().enumerate().filter(|(number, _)| *number != which);
-    let outlines = others.map(|(_, robot)| outline(robot.body().pose().at, robot.body().widest_m()));
+    let outlines = others.map(|(_, robot)| robot.body().widest().outline(robot.body().pose().at));
     let shut = doors.iter().filter(|door| door.is_shut).map(|door| door.leaf.clone());
     outlines.chain(shut).collect()
-}
-
-/// A polygon about a disc.
-fn outline(middle: Point, radius_m: f64) -> Vec<Point> {
-    let radius = radius_m / (TAU / (2 * SIDES) as f64).cos();
-    let corner = |side: usize| {
-        let (sin, cos) = (TAU * side as f64 / SIDES as f64).sin_cos();
-        middle + Point::new(cos, sin) * radius
-    };
-    (0..SIDES).map(corner).collect()
 }

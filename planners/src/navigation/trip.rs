@@ -13,7 +13,8 @@ pub struct Trip {
     pub metres: Vec<f64>,
     /// Of these, those that it went without setting off or coming to a stand, by shape.
     pub paces: Vec<Pace>,
-    /// Changes of shape, in order: from which into which.
+    /// Changes of shape, in order: from which into which; of one that is longer than wide into itself where it turned to the next
+    /// facing.
     pub changes: Vec<(usize, usize)>,
     /// Times that a way was closed and another one looked for.
     pub replans: u32,
@@ -24,6 +25,8 @@ pub struct Trip {
     pub touches: usize,
     /// Where it was, in which shape, whenever it had gone on a little.
     pub track: Vec<(Point, usize)>,
+    /// The stance in which it is now, where that is known.
+    pub(super) stance: Option<usize>,
 }
 
 /// How fast a robot went.
@@ -59,21 +62,32 @@ impl Trip {
             seconds: 0.0,
             touches: 0,
             track: vec![(at, shape)],
+            stance: None,
         }
     }
 
     /// Takes note of a step to where the robot is now, in the shape in which it is now, and of what happened.
-    pub fn note(&mut self, step: &Advance, (at, now): (Point, usize), events: &[Event]) {
+    ///
+    /// # Arguments
+    /// `stance` is that in which it stands, where that is known.
+    pub fn note(
+        &mut self,
+        step: &Advance,
+        (at, now): (Point, usize),
+        stance: Option<usize>,
+        events: &[Event],
+    ) {
         self.metres[self.shape] += step.metres;
         if step.is_under_way && step.metres > 0.0 {
             let pace = &mut self.paces[self.shape];
             *pace = Pace { metres: pace.metres + step.metres, seconds: pace.seconds + step.seconds };
         }
         let is_changed = now != self.shape;
-        if is_changed {
+        let is_turned = self.stance.is_some() && stance != self.stance;
+        if is_changed || is_turned {
             self.changes.push((self.shape, now));
-            self.shape = now;
         }
+        (self.shape, self.stance) = (now, stance);
         if is_changed || self.track.last().is_none_or(|(last, _)| last.distance(at) >= TRACK_M) {
             self.track.push((at, now));
         }

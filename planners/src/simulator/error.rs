@@ -16,13 +16,21 @@ pub enum SimulationError {
     Speed { number: usize, speed_m_s: f64 },
     #[error("there is no shape {shape}; the robot has {shapes}, numbered from 0")]
     NoShape { shape: usize, shapes: usize },
-    #[error("the robot begins at {x}, {y}, {gap_m:.3} m from {what}; its radius is {radius_m} m")]
+    #[error("the robot begins at {x}, {y}, {}", too_near(*gap_m, what, *radius_m))]
     Start {
         x: f64,
         y: f64,
-        /// How far from its middle.
+        /// From the middle of a disc.
         gap_m: f64,
         what: String,
-        radius_m: f64,
+        /// Of a disc.
+        radius_m: Option<f64>,
     },
+}
+
+fn too_near(gap_m: f64, what: &str, radius_m: Option<f64>) -> String {
+    match radius_m {
+        Some(radius_m) => format!("{gap_m:.3} m from {what}; its radius is {radius_m} m"),
+        None => format!("where {what} would be within it"),
+    }
 }

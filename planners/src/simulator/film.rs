@@ -6,6 +6,7 @@ use std::fmt::Write as _;
 use super::Simulator;
 use crate::geometry::{Point, Rect, Segment};
 use crate::pose::Pose;
+use crate::rim::Rim;
 
 /// What there was to see at one moment.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,7 +32,7 @@ pub struct Film {
     /// Obstacles by their corners, where they began.
     obstacles: Vec<Vec<Point>>,
     /// Of the robot, in each of its shapes.
-    radii_m: Vec<f64>,
+    rims: Vec<Rim>,
     /// What some shape does not fit beneath.
     low: Vec<Rect>,
     frames: Vec<Frame>,
@@ -66,7 +67,7 @@ impl Film {
         Self {
             walls: simulator.walls.segments().to_vec(),
             obstacles: simulator.movers.iter().map(|mover| mover.obstacle.corners.clone()).collect(),
-            radii_m: shapes.iter().map(|shape| shape.radius_m).collect(),
+            rims: shapes.iter().map(|shape| shape.rim).collect(),
             low,
             frames: Vec::new(),
             goal: None,
@@ -126,7 +127,7 @@ impl Film {
                 "<circle cx=\"{:.2}\" cy=\"{:.2}\" r=\"{:.2}\" fill=\"#2e9d66\" fill-opacity=\".35\" stroke=\"#2e9d66\"/>",
                 at.x,
                 at.y,
-                self.radii_m[0] / 2.0
+                self.rims[0].inner_m() / 2.0
             );
         }
         let clock = Clock::new(&self.frames, speed);
@@ -222,8 +223,16 @@ impl Film {
             if from > 0 || until.is_some() {
                 clock.show(out, from, until);
             }
-            let radius = self.radii_m[shape];
-            let _ = write!(out, "<circle r=\"{radius}\"/><path d=\"M0 0H{radius}\"/></g>");
+            let rim = &self.rims[shape];
+            let ahead = rim.reach_m(Point::towards(0.0));
+            if rim.is_disc() {
+                let _ = write!(out, "<circle r=\"{ahead}\"/>");
+            } else {
+                let corners = rim.outline(Point::default());
+                let corners: Vec<String> = corners.iter().map(|p| format!("{:.3},{:.3}", p.x, p.y)).collect();
+                let _ = write!(out, "<polygon points=\"{}\"/>", corners.join(" "));
+            }
+            let _ = write!(out, "<path d=\"M0 0H{ahead}\"/></g>");
         }
         out.push_str("</g></g>\n");
     }

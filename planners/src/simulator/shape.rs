@@ -1,15 +1,17 @@
-//! Robots that change their shape: how wide and how fast they are in each, and beneath what they do not fit.
+//! Robots that change their shape: how large and how fast they are in each, and beneath what they do not fit.
 
 use std::collections::BTreeMap;
 
 use super::error::SimulationError;
 use super::settings::Settings;
 use crate::geometry::Rect;
+use crate::rim::Rim;
 
-/// A shape in which the robot can be. It is round.
+/// A shape in which the robot can be.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shape {
-    pub radius_m: f64,
+    /// At heading 0.
+    pub rim: Rim,
     pub greatest_speed_m_s: f64,
     /// What hangs so low that the robot does not fit beneath it. The sonar does not hear it.
     pub overhead: Vec<Rect>,
@@ -28,7 +30,7 @@ impl Shapes {
     pub(super) fn one(settings: &Settings) -> Self {
         let Settings { radius_m, greatest_speed_m_s, .. } = *settings;
         Self {
-            all: vec![Shape { radius_m, greatest_speed_m_s, overhead: Vec::new() }],
+            all: vec![Shape { rim: Rim::disc(radius_m), greatest_speed_m_s, overhead: Vec::new() }],
             seconds: BTreeMap::new(),
         }
     }
@@ -41,8 +43,9 @@ impl Shapes {
         if shape >= self.all.len() {
             return Err(SimulationError::NoShape { shape, shapes: self.all.len() });
         }
-        let of =
-            |shape: &Shape| [("radius_m", shape.radius_m), ("greatest_speed_m_s", shape.greatest_speed_m_s)];
+        let of = |shape: &Shape| {
+            [("inner_m", shape.rim.inner_m()), ("greatest_speed_m_s", shape.greatest_speed_m_s)]
+        };
         let is_wrong = |(_, value): &(&str, f64)| !(value.is_finite() && *value > 0.0);
         let wrong = self.all.iter().flat_map(of).find(is_wrong);
         let times = self.seconds.values().map(|seconds| ("seconds of a change of shape", *seconds));

@@ -329,7 +329,7 @@ fn a_touch_is_a_short_surface_across_it_or_the_known_wall() {
 fn parts_of_a_turn_on_the_way_keep_the_pose() {
     let mut world = World::new(&walls(), Vec::new(), simulator::Settings::default(), World::here());
     world.model.recall((0..).zip(walls()), table);
-    world.robot.command(Command::Move { distance_m: 8.0, speed_m_s: 0.5 });
+    world.robot.command(Command::Move { distance_m: 8.0, bearing: 0.0, speed_m_s: 0.5 });
     let mut part = Vec::new();
     loop {
         let sensed = world.robot.sense().unwrap();

@@ -21,7 +21,7 @@ fn robot(obstacles: Vec<Obstacle>, settings: Settings, seed: u64) -> Simulator {
 }
 
 fn go(robot: &mut Simulator, distance_m: f64) -> Sensed {
-    robot.command(Command::Move { distance_m, speed_m_s: 0.5 });
+    robot.command(Command::Move { distance_m, bearing: 0.0, speed_m_s: 0.5 });
     finish(robot)
 }
 
@@ -119,7 +119,7 @@ fn whatever_moves_robot_and_obstacle_never_overlap() {
             if step % 40 == 0 {
                 robot.command(Command::Turn { by: 1.0 });
             } else if step % 40 == 20 {
-                robot.command(Command::Move { distance_m: 2.0, speed_m_s: 0.5 });
+                robot.command(Command::Move { distance_m: 2.0, bearing: 0.0, speed_m_s: 0.5 });
             }
             robot.sense().unwrap();
             let at = robot.pose().at;
@@ -187,7 +187,7 @@ fn errors_are_as_large_as_the_settings_say() {
 fn the_same_seed_gives_the_same_readings_to_the_bit_and_another_gives_others() {
     let run = |seed| {
         let mut robot = robot(vec![at_x(7.0, Some(course(-4.0)))], Settings::default(), seed);
-        robot.command(Command::Move { distance_m: 3.0, speed_m_s: 0.4 });
+        robot.command(Command::Move { distance_m: 3.0, bearing: 0.0, speed_m_s: 0.4 });
         (0..300).map(|_| robot.sense().unwrap()).collect::<Vec<_>>()
     };
     assert_eq!(run(5), run(5));
@@ -234,7 +234,7 @@ fn what_cannot_begin_says_why() {
 fn a_film_shows_robot_obstacles_and_captions_and_is_well_formed() {
     let mut robot = robot(vec![at_x(7.0, Some(course(-2.0)))], Settings::default(), 3);
     let mut film = Film::new(&robot);
-    robot.command(Command::Move { distance_m: 2.0, speed_m_s: 0.5 });
+    robot.command(Command::Move { distance_m: 2.0, bearing: 0.0, speed_m_s: 0.5 });
     for step in 0..60 {
         robot.sense().unwrap();
         let mut frame = robot.frame();

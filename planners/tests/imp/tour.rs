@@ -94,7 +94,7 @@ impl<'t> Drive<'t> {
             if bearing.abs() > 3.0_f64.to_radians() {
                 self.robot.command(Command::Turn { by: bearing });
             } else {
-                self.robot.command(Command::Move { distance_m: far.min(1.0), speed_m_s: 0.5 });
+                self.robot.command(Command::Move { distance_m: far.min(1.0), bearing: 0.0, speed_m_s: 0.5 });
             }
             self.sense(0);
         }

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use adit_planners::floor_plan::{Disc, Network};
 use adit_planners::geometry::{Point, Rect, Segment, polygon};
 use adit_planners::navigation::{Building, Drivable, Ending, Met, Mission, Outcome, Outfit, Router, Stretch};
+use adit_planners::rim::Rim;
 use adit_planners::simulator::{Shape, Shapes};
 
 use super::scene::{exact, mission, stands};
@@ -24,14 +25,16 @@ impl Corridor {
     fn new() -> Self {
         let (hall, pipe) = (Rect::new(0.0, 0.0, 10.0, 3.0), Rect::new(4.0, 0.0, 5.0, 3.0));
         let walls = polygon::sides_of_rect(&hall).to_vec();
-        let shape = |radius_m, speed, overhead| Shape { radius_m, greatest_speed_m_s: speed, overhead };
+        let shape =
+            |radius, speed, overhead| Shape { rim: Rim::disc(radius), greatest_speed_m_s: speed, overhead };
         let shapes = vec![shape(0.3, 0.8, vec![pipe]), shape(0.4, 0.25, Vec::new())];
-        let building = |shape: &Shape| {
-            let network = Network::none(Disc { radius: shape.radius_m, margin: 0.0 });
+        let building = |(number, shape): (usize, &Shape)| {
+            let network = Network::none(Disc { radius: shape.rim.radius_m(), margin: 0.0 });
             let overhead = shape.overhead.iter().flat_map(polygon::sides_of_rect).collect();
             Building { overhead, ..Building::of_walls(network, walls.clone()) }
+                .in_stance(number, &shape.rim, None)
         };
-        let buildings = shapes.iter().map(building).collect();
+        let buildings = shapes.iter().enumerate().map(building).collect();
         let seconds = BTreeMap::from([((UPRIGHT, KNEELING), 2.5), ((KNEELING, UPRIGHT), 3.5)]);
         Self { walls, shapes: Shapes { all: shapes, seconds }, buildings }
     }
@@ -40,11 +43,11 @@ impl Corridor {
         let on = Drivable {
             walls: &self.walls,
             shapes: Some(&self.shapes),
-            shape: UPRIGHT,
+            stance: UPRIGHT,
             buildings: &self.buildings,
         };
         let mut outfit: Outfit = exact();
-        outfit.robot.radius_m = self.shapes.all[UPRIGHT].radius_m;
+        outfit.robot.radius_m = self.shapes.all[UPRIGHT].rim.radius_m();
         outfit.navigation.speed_m_s = 0.8;
         mission.run(&on, &outfit, Some(router), &mut Table, |_| {}, None).unwrap()
     }
@@ -54,14 +57,14 @@ impl Corridor {
 struct Says<F>(F, Vec<Vec<Met>>);
 
 impl<F: FnMut([Point; 2], usize, &[Met]) -> Option<Vec<Stretch>>> Router for Says<F> {
-    fn way(&mut self, ends: [Point; 2], shape: usize, met: &[Met]) -> Option<Vec<Stretch>> {
+    fn way(&mut self, ends: [Point; 2], stance: usize, met: &[Met]) -> Option<Vec<Stretch>> {
         self.1.push(met.to_vec());
-        (self.0)(ends, shape, met)
+        (self.0)(ends, stance, met)
     }
 }
 
-fn stretch(shape: usize, points: &[[f64; 2]]) -> Stretch {
-    Stretch { shape, points: points.iter().map(|at| Point::new(at[0], at[1])).collect() }
+fn stretch(stance: usize, points: &[[f64; 2]]) -> Stretch {
+    Stretch { stance, points: points.iter().map(|at| Point::new(at[0], at[1])).collect() }
 }
 
 fn beneath(from: Point) -> Vec<Stretch> {

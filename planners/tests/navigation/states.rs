@@ -168,7 +168,7 @@ fn in_manual_mode_the_user_drives_and_the_position_is_kept() {
     let estimate = Estimate::new(start, 0.01, 0.01);
     let outfit = Outfit::default();
     let mut navigator = Navigator::new(&building, outfit.model, outfit.navigation, estimate);
-    assert!(navigator.drive(&mut robot, Command::Move { distance_m: 3.0, speed_m_s: 0.5 }));
+    assert!(navigator.drive(&mut robot, Command::Move { distance_m: 3.0, bearing: 0.0, speed_m_s: 0.5 }));
     for _ in 0..300 {
         assert_eq!(navigator.step(&mut robot, &mut Table), None);
     }

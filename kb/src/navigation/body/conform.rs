@@ -27,7 +27,7 @@ pub struct Check {
 }
 
 /// All checks, in the order in which they are told.
-const CHECKS: [(&str, &str); 23] = [
+const CHECKS: [(&str, &str); 24] = [
     ("version", "another version of the protocol is refused in words"),
     ("hello", "`hello` is answered with this version, shapes, directions and range that make sense"),
     ("unknown", "what is no message is refused in words, and the link lives on"),
@@ -39,6 +39,7 @@ const CHECKS: [(&str, &str); 23] = [
     ("ahead", "a move above 0 is ahead, and odometry follows"),
     ("nearer", "bearing 0 is ahead, and ranges are metres: what is ahead comes nearer by what odometry says"),
     ("back", "a move below 0 is back, and odometry follows"),
+    ("aside", "a move with a bearing goes there, and the body keeps its facing"),
     ("speed", "it goes no faster than it is told"),
     ("stop", "`stop` ends a move"),
     ("anew", "a new command ends the old one"),
@@ -76,6 +77,7 @@ fn examined(exam: &mut Exam) -> Result<(), Over> {
     manners::unknown(exam)?;
     moving::rest(exam)?;
     measuring::all_around(exam)?;
+    moving::aside(exam)?;
     moving::speed(exam)?;
     moving::stop(exam)?;
     moving::anew(exam)?;

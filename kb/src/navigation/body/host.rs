@@ -79,8 +79,8 @@ impl<B: Body> Host<B> {
             Order::Sense {} => return self.sensed(),
             Order::Stop {} => Command::Stop,
             Order::Turn { by_rad } => Command::Turn { by: *by_rad },
-            Order::Move { distance_m, speed_m_s } if *speed_m_s > 0.0 => {
-                Command::Move { distance_m: *distance_m, speed_m_s: *speed_m_s }
+            Order::Move { distance_m, speed_m_s, bearing_rad } if *speed_m_s > 0.0 => {
+                self.moved(*distance_m, *speed_m_s, *bearing_rad)?
             }
             Order::Move { speed_m_s, .. } => {
                 return Err(format!("`speed_m_s` is {speed_m_s}, expected more than 0"));
@@ -89,6 +89,18 @@ impl<B: Body> Host<B> {
         };
         self.body.command(command);
         Ok(Answer::Accepted {})
+    }
+
+    /// Whoever is round goes where it looks.
+    fn moved(&self, distance_m: f64, speed_m_s: f64, bearing: f64) -> Result<Command, String> {
+        let outline = &self.shapes[self.shape];
+        if outline.length_m.is_none() && bearing != 0.0 {
+            return Err(format!(
+                "`bearing_rad` is {bearing}, expected 0: the shape `{}` is round",
+                outline.name
+            ));
+        }
+        Ok(Command::Move { distance_m, bearing, speed_m_s })
     }
 
     fn greeted(&mut self, protocol: u32, uses: &[String]) -> Result<Profile, String> {

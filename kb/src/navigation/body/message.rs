@@ -1,7 +1,9 @@
 //! The messages of the protocol, one a line. Units are in the names: metres, radians (counter-clockwise above 0), seconds.
 
 use adit_planners::body::{Contact, Reading};
+use adit_planners::geometry::Point;
 use adit_planners::pose::Pose;
+use adit_planners::rim::Rim;
 use serde::{Deserialize, Serialize};
 
 use super::limits::shortened;
@@ -22,6 +24,9 @@ pub enum Order {
     Move {
         distance_m: f64,
         speed_m_s: f64,
+        /// Left out where it is 0: whoever is round goes where it looks.
+        #[serde(default, skip_serializing_if = "is_ahead")]
+        bearing_rad: f64,
     },
     Change {
         shape: String,
@@ -61,12 +66,32 @@ pub struct Profile {
     pub has_skirt: bool,
 }
 
-/// A shape: the body is round in it.
+/// A shape. The body is round in it, or, where it has a length, a rectangle that keeps its facing and goes any way in it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Outline {
     pub name: String,
+    /// Half of its width.
     pub radius_m: f64,
+    /// Along its heading.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub length_m: Option<f64>,
+}
+
+impl Outline {
+    pub fn of(name: String, rim: &Rim) -> Self {
+        let [ahead, aside] = [Point::new(1.0, 0.0), Point::new(0.0, 1.0)].map(|side| rim.extent_m(side));
+        Self { name, radius_m: aside, length_m: (!rim.is_disc()).then_some(2.0 * ahead) }
+    }
+
+    pub fn rim(&self) -> Rim {
+        Rim::of(2.0 * self.radius_m, self.length_m)
+    }
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks so")]
+fn is_ahead(bearing_rad: &f64) -> bool {
+    *bearing_rad == 0.0
 }
 
 /// What a body sensed until it answered.
@@ -198,11 +223,11 @@ mod tests {
         for value in
             [0.1 + 0.2, 1.0 / 3.0, -1.234_567_890_123_456_7e-7, f64::MIN_POSITIVE, std::f64::consts::TAU]
         {
-            let order = Order::Move { distance_m: value, speed_m_s: 1.0 };
-            let Ok(Order::Move { distance_m, .. }) = Order::of_line(&line(&order)) else {
+            let order = Order::Move { distance_m: value, speed_m_s: 1.0, bearing_rad: value };
+            let Ok(Order::Move { distance_m, bearing_rad, .. }) = Order::of_line(&line(&order)) else {
                 panic!("{order:?}")
             };
-            assert_eq!(distance_m.to_bits(), value.to_bits());
+            assert_eq!([distance_m.to_bits(), bearing_rad.to_bits()], [value.to_bits(); 2]);
         }
     }
 

@@ -3,6 +3,8 @@
 use std::fmt;
 
 use adit_planners::body::{Body, Command, Sensed, Silence};
+use adit_planners::geometry::Point;
+use adit_planners::rim::Rim;
 
 use super::limits::PROTOCOL;
 use super::link::Link;
@@ -18,15 +20,38 @@ pub struct Used {
     /// `None` for the shape in which it is, whatever it is called.
     pub name: Option<String>,
     /// As ways are found for it.
-    pub radius_m: f64,
+    pub rim: Rim,
+}
+
+/// Half of how long and of how wide it is, metres.
+fn halves(rim: &Rim) -> [f64; 2] {
+    [Point::new(1.0, 0.0), Point::new(0.0, 1.0)].map(|side| rim.extent_m(side))
+}
+
+/// Whether a body lies within what ways are found for, but for what both are rounded by.
+fn does_fit(own: &Rim, used: &Rim) -> bool {
+    let has_room = halves(own).iter().zip(halves(used)).all(|(own, used)| *own <= used + ROUNDED_M);
+    has_room && (own.is_disc() || !used.is_disc() || own.outer_m() <= used.radius_m() + ROUNDED_M)
+}
+
+fn size(rim: &Rim) -> String {
+    match halves(rim) {
+        [radius, _] if rim.is_disc() => format!("{radius} m"),
+        [length, width] => format!("{} x {} m", 2.0 * length, 2.0 * width),
+    }
+}
+
+fn said(rim: &Rim) -> String {
+    let what = if rim.is_disc() { "the radius of the body" } else { "the body" };
+    format!("{what} is {}", size(rim))
 }
 
 /// A robot that is heard by lines of JSON.
 pub struct Remote {
     /// `None` once it is not heard any more.
     link: Option<Link>,
-    /// The names and radii of its shapes, in the order in which Adit numbers them.
-    shapes: Vec<(String, f64)>,
+    /// Its shapes by name, in the order in which Adit numbers them.
+    shapes: Vec<(String, Rim)>,
     /// The one in which it was when it was last heard, by number.
     shape: usize,
     directions: usize,
@@ -42,7 +67,7 @@ impl Remote {
     /// # Returns
     /// Always one: where the link did not come about, or it cannot be driven, it is silent from the beginning.
     pub fn greet(link: Result<Link, String>, used: &[Used]) -> Self {
-        let shapes = used.iter().map(|used| (used.name.clone().unwrap_or_default(), used.radius_m)).collect();
+        let shapes = used.iter().map(|used| (used.name.clone().unwrap_or_default(), used.rim)).collect();
         let mut remote = Self {
             link: None,
             shapes,
@@ -101,14 +126,15 @@ impl Remote {
             let own = profile.shapes.iter().find(|outline| outline.name == *name).ok_or_else(|| {
                 format!("the body has no shape `{name}`, which Adit uses; it has {}", names(profile))
             })?;
-            if own.radius_m > used.radius_m + ROUNDED_M {
-                let (found, most) = (own.radius_m, used.radius_m);
+            let rim = own.rim();
+            if !does_fit(&rim, &used.rim) {
                 return Err(format!(
-                    "the radius of the body is {found} m in the shape `{name}`, and ways are found for {most} m: \
-                     it would touch what they pass"
+                    "{} in the shape `{name}`, and ways are found for {}: it would touch what they pass",
+                    said(&rim),
+                    size(&used.rim)
                 ));
             }
-            Ok((own.name.clone(), own.radius_m))
+            Ok((own.name.clone(), rim))
         };
         self.shapes = used.iter().map(own).collect::<Result<_, _>>()?;
         self.directions = profile.directions as usize;
@@ -184,7 +210,7 @@ fn unexpected(asked: &str, expected: &str, found: &Answer) -> String {
 }
 
 impl Body for Remote {
-    fn radius_m(&self) -> f64 {
+    fn rim(&self) -> Rim {
         self.shapes[self.shape].1
     }
 
@@ -196,7 +222,9 @@ impl Body for Remote {
         let order = match command {
             Command::Stop => Order::Stop {},
             Command::Turn { by } => Order::Turn { by_rad: by },
-            Command::Move { distance_m, speed_m_s } => Order::Move { distance_m, speed_m_s },
+            Command::Move { distance_m, bearing, speed_m_s } => {
+                Order::Move { distance_m, speed_m_s, bearing_rad: bearing }
+            }
             Command::Change { to } => Order::Change { shape: self.shapes[to].0.clone() },
         };
         if self.silence.is_none()

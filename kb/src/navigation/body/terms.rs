@@ -51,6 +51,12 @@ impl Terms {
                     "the radius of the shape `{name}` is {found} m, expected more than 0 and at most {LARGEST_RADIUS_M}"
                 ));
             }
+            let most = 2.0 * LARGEST_RADIUS_M;
+            if let Some(found) = outline.length_m.filter(|length| !(*length > 0.0 && *length <= most)) {
+                return Err(format!(
+                    "the length of the shape `{name}` is {found} m, expected more than 0 and at most {most}"
+                ));
+            }
         }
         if !(1..=MOST_DIRECTIONS).contains(directions) {
             return Err(format!(
@@ -153,7 +159,7 @@ mod tests {
     type Change<T> = fn(&mut T);
 
     fn profile() -> Profile {
-        let outline = |name: &str, radius_m| Outline { name: name.to_owned(), radius_m };
+        let outline = |name: &str, radius_m| Outline { name: name.to_owned(), radius_m, length_m: None };
         Profile {
             protocol: PROTOCOL,
             shapes: vec![outline("tall", 0.3), outline("low", 0.4)],
@@ -173,11 +179,12 @@ mod tests {
     #[test]
     fn what_a_body_says_of_itself_has_to_make_sense() {
         assert!(Terms::of(profile()).is_ok());
-        let changes: [(Change<Profile>, &str); 8] = [
+        let changes: [(Change<Profile>, &str); 9] = [
             (|it| it.protocol = 2, "speaks protocol 2, expected 1"),
             (|it| it.shapes.clear(), "no shape"),
             (|it| it.shapes[1].name = "tall".to_owned(), "`tall` twice"),
             (|it| it.shapes[0].radius_m = 0.0, "is 0 m, expected more than 0"),
+            (|it| it.shapes[0].length_m = Some(-1.0), "the length of the shape `STAND` is -1 m"),
             (|it| it.directions = 0, "into 0 directions"),
             (|it| it.directions = 5000, "into 5000 directions"),
             (|it| it.range_m = -1.0, "as far as -1 m"),

@@ -1,7 +1,7 @@
 //! Explores with a body: from opening to opening, until none is left that is worth a look.
 
 use super::grid::Cells;
-use super::ground::{Ground, LookOut, Rim};
+use super::ground::{Frontier, Ground, LookOut};
 use super::joints::joined;
 use super::learned::Learned;
 use super::opening::{Guide, OpeningFacts};
@@ -164,45 +164,49 @@ impl<'b> Explorer<'b> {
     fn next(&mut self, guide: &mut impl Guide) -> Vec<Point> {
         let walls = joined(&self.navigator.surfaces());
         let ground = self.ground(&walls);
-        let rims = ground.rims();
-        self.openings = rims.iter().map(|rim| rim.middle).collect();
+        let frontiers = ground.frontiers();
+        self.openings = frontiers.iter().map(|frontier| frontier.middle).collect();
         if let Some(target) = self.target {
             // It goes on to where it was going for as long as there is something to see.
-            let same = rims.iter().find(|rim| rim.middle.distance(target.at) <= SAME_M);
-            if let Some((rim, look_out)) = same.and_then(|rim| Some((rim, self.look_out(&ground, rim)?))) {
-                return self.set_off(&ground, &walls, rim, look_out);
+            let same = frontiers.iter().find(|frontier| frontier.middle.distance(target.at) <= SAME_M);
+            if let Some((frontier, look_out)) =
+                same.and_then(|frontier| Some((frontier, self.look_out(&ground, frontier)?)))
+            {
+                return self.set_off(&ground, &walls, frontier, look_out);
             }
         }
-        let mut best: Option<(f64, &Rim, LookOut)> = None;
-        for rim in &rims {
-            let Some(look_out) = self.look_out(&ground, rim) else { continue };
-            if let Some(worth) = guide.opening(&self.facts(&ground, rim, look_out))
+        let mut best: Option<(f64, &Frontier, LookOut)> = None;
+        for frontier in &frontiers {
+            let Some(look_out) = self.look_out(&ground, frontier) else { continue };
+            if let Some(worth) = guide.opening(&self.facts(&ground, frontier, look_out))
                 && best.is_none_or(|(most, ..)| worth > most)
             {
-                best = Some((worth, rim, look_out));
+                best = Some((worth, frontier, look_out));
             }
         }
-        best.map_or_else(Vec::new, |(_, rim, look_out)| self.set_off(&ground, &walls, rim, look_out))
+        best.map_or_else(Vec::new, |(_, frontier, look_out)| {
+            self.set_off(&ground, &walls, frontier, look_out)
+        })
     }
 
-    fn look_out(&self, ground: &Ground, rim: &Rim) -> Option<LookOut> {
-        ground.look_out(rim, LOOK_M[usize::from(self.times_tried(rim) > 0)])
+    fn look_out(&self, ground: &Ground, frontier: &Frontier) -> Option<LookOut> {
+        ground.look_out(frontier, LOOK_M[usize::from(self.times_tried(frontier) > 0)])
     }
 
-    fn times_tried(&self, rim: &Rim) -> u32 {
-        let same = self.tried.iter().find(|(known, _)| known.distance(rim.middle) <= SAME_M);
+    fn times_tried(&self, frontier: &Frontier) -> u32 {
+        let same = self.tried.iter().find(|(known, _)| known.distance(frontier.middle) <= SAME_M);
         same.map_or(0, |(_, times)| *times)
     }
 
-    fn facts(&self, ground: &Ground, rim: &Rim, look_out: LookOut) -> OpeningFacts {
+    fn facts(&self, ground: &Ground, frontier: &Frontier, look_out: LookOut) -> OpeningFacts {
         let at = self.navigator.estimate().pose.at;
-        let direction = (rim.middle - at).angle();
+        let direction = (frontier.middle - at).angle();
         OpeningFacts {
-            width_m: rim.width_m,
+            width_m: frontier.width_m,
             distance_m: look_out.distance_m,
             off_asked: self.towards.map(|towards| wrapped(direction - towards).abs()),
-            is_in_sight: ground.is_open(at, rim.middle),
-            times_tried: self.times_tried(rim),
+            is_in_sight: ground.is_open(at, frontier.middle),
+            times_tried: self.times_tried(frontier),
             time_s: self.navigator.time_s(),
             driven_m: self.odometer_m,
             radius_m: self.radius_m,
@@ -210,10 +214,16 @@ impl<'b> Explorer<'b> {
     }
 
     /// The first part of the way to a look-out.
-    fn set_off(&mut self, ground: &Ground, walls: &[Segment], rim: &Rim, look_out: LookOut) -> Vec<Point> {
+    fn set_off(
+        &mut self,
+        ground: &Ground,
+        walls: &[Segment],
+        frontier: &Frontier,
+        look_out: LookOut,
+    ) -> Vec<Point> {
         let at = self.navigator.estimate().pose.at;
         let way = ground.way(at, look_out, walls, self.reach_m - GRID_M);
-        self.target = way.last().map(|last| Target { at: rim.middle, look_out: *last, from: at });
+        self.target = way.last().map(|last| Target { at: frontier.middle, look_out: *last, from: at });
         let (mut legs, mut from, mut left) = (Vec::new(), at, STEP_M);
         for point in way {
             let far = from.distance(point);

@@ -6,6 +6,7 @@ use std::collections::VecDeque;
 use super::grid::{Cell, Cells, GRAIN_M, cell_of, middle_of, touched};
 use crate::geometry::{Point, Segment};
 use crate::navigation::highway::{is_clear, straightened};
+use crate::rim::Rim;
 use crate::search::grid::{AROUND, BESIDE, LeastCosts, STRAIGHT, least_costs, step};
 
 /// Beside what was seen free so many cells count as free, too: beams end before a wall, and leave out what lies between them.
@@ -22,7 +23,7 @@ const LOOKED_AT: usize = 12;
 
 /// Cells where free space ends without a wall, side by side.
 #[derive(Clone, Debug)]
-pub(super) struct Rim {
+pub(super) struct Frontier {
     /// The cell nearest to the middle of all.
     pub middle: Point,
     points: Vec<Point>,
@@ -70,14 +71,14 @@ impl Ground {
     }
 
     /// Where free space ends without a wall, from the first cell on.
-    pub fn rims(&self) -> Vec<Rim> {
+    pub fn frontiers(&self) -> Vec<Frontier> {
         let window = self.free.window;
         let mut left = Cells::none(window);
         for cell in self.free.iter().filter(|cell| self.is_rim(*cell)) {
             left.take(cell);
         }
         let mut done = Cells::none(window);
-        let mut rims = Vec::new();
+        let mut frontiers = Vec::new();
         for first in left.iter() {
             if !done.take(first) {
                 continue;
@@ -89,12 +90,12 @@ impl Ground {
                 let around = AROUND.iter().map(|(dx, dy)| (column + dx, row + dy));
                 cells.extend(around.filter(|cell| left.has(*cell) && done.take(*cell)));
             }
-            rims.push(Rim::new(&cells));
+            frontiers.push(Frontier::new(&cells));
         }
-        rims
+        frontiers
     }
 
-    /// Cells beyond the rims, two deep, with the walls that they meet.
+    /// Cells beyond the frontiers, two deep, with the walls that they meet.
     pub fn beyond(&self) -> Cells {
         let mut beyond = Cells::none(self.free.window);
         let mut layer: Vec<Cell> = self.free.iter().filter(|cell| self.is_rim(*cell)).collect();
@@ -118,12 +119,12 @@ impl Ground {
     ///
     /// # Arguments
     /// `far_m` is how near it has to be, if that can be; the middle of the opening is looked at, if that can be.
-    pub fn look_out(&self, rim: &Rim, far_m: f64) -> Option<LookOut> {
+    pub fn look_out(&self, frontier: &Frontier, far_m: f64) -> Option<LookOut> {
         let nearest = |far_m: f64| {
-            let found = rim.points.iter().filter_map(|point| self.look_at(*point, far_m));
+            let found = frontier.points.iter().filter_map(|point| self.look_at(*point, far_m));
             found.min_by(|a, b| a.distance_m.total_cmp(&b.distance_m))
         };
-        self.look_at(rim.middle, far_m).or_else(|| nearest(far_m)).or_else(|| nearest(FAR_M))
+        self.look_at(frontier.middle, far_m).or_else(|| nearest(far_m)).or_else(|| nearest(FAR_M))
     }
 
     fn look_at(&self, towards: Point, far_m: f64) -> Option<LookOut> {
@@ -161,8 +162,9 @@ impl Ground {
         // Where the robot is may be no ground, and the way from there to it is short.
         let is_ground = |a: Point, b: Point| touched(a, b).all(|cell| a == robot || self.standing.has(cell));
         let is_open = |a: Point, b: Point| a != robot || self.is_open(a, b);
-        let straight =
-            straightened(&points, |a, b| is_ground(a, b) && is_open(a, b) && is_clear(a, b, reach_m, walls));
+        let straight = straightened(&points, |a, b| {
+            is_ground(a, b) && is_open(a, b) && is_clear(&Rim::disc(0.0), a, b, reach_m, walls)
+        });
         straight[1..].to_vec()
     }
 
@@ -194,7 +196,7 @@ impl Ground {
     }
 }
 
-impl Rim {
+impl Frontier {
     fn new(cells: &[Cell]) -> Self {
         let points: Vec<Point> = cells.iter().map(|cell| middle_of(*cell)).collect();
         let count = points.len().max(1) as f64;

@@ -1,5 +1,7 @@
 //! What the judge decided, done.
 
+use std::f64::consts::PI;
+
 use super::{ASIDE, Course, Line, Navigator, Spot};
 use crate::body::{Body, Command};
 use crate::geometry::{Point, path_length};
@@ -40,9 +42,7 @@ impl Navigator<'_> {
                 self.stop(body);
                 return self.reached(facts);
             }
-            State::Hold if facts.is_changing && !facts.is_busy => {
-                body.command(Command::Change { to: self.needed });
-            }
+            State::Hold if facts.is_changing && !facts.is_busy => self.come_to_stance(body),
             State::Turn if is_entered || !facts.is_busy => self.turn(body),
             State::Move if is_entered || !facts.is_busy => self.set_off(body, is_entered),
             State::Wait if is_entered => {
@@ -67,8 +67,24 @@ impl Navigator<'_> {
 
     pub(super) fn turn(&mut self, body: &mut impl Body) {
         if let Some(&target) = self.legs.front() {
-            body.command(Command::Turn { by: self.pose().bearing(target) });
-            (self.course, self.readings_standing) = (None, 0);
+            self.turn_by(body, self.heading_off(target));
+        }
+    }
+
+    fn turn_by(&mut self, body: &mut impl Body, by: f64) {
+        body.command(Command::Turn { by });
+        (self.course, self.readings_standing) = (None, 0);
+    }
+
+    /// Turns, or changes its shape, towards the stance that is needed: a disc turns before it becomes longer than wide.
+    fn come_to_stance(&mut self, body: &mut impl Body) {
+        let Some(needed) = self.stances.get(self.needed) else { return };
+        let (off, is_in_shape) = (needed.off_facing(self.pose().heading), self.shape() == needed.shape);
+        let turns = is_in_shape || self.building.facing.is_none();
+        if turns && off.abs() > self.settings.off_facing {
+            self.turn_by(body, off);
+        } else {
+            body.command(Command::Change { to: needed.shape });
         }
     }
 
@@ -79,16 +95,27 @@ impl Navigator<'_> {
             self.line = Line { from: at, nearest_m: at.distance(target) };
             self.contact = None;
         }
-        self.drive_straight(body, at.distance(target).min(self.figures().stride_m));
+        let off = self.building.off_facing(self.pose().heading);
+        if off.abs() > self.settings.off_facing {
+            return self.turn_by(body, off);
+        }
+        let bearing = if self.building.facing.is_some() { self.pose().bearing(target) } else { 0.0 };
+        self.drive_straight(body, at.distance(target).min(self.figures().stride_m), bearing);
     }
 
     /// Withdraws from a touch: straight, or after a turn towards it where it is aside.
     pub(super) fn back_off(&mut self, body: &mut impl Body) {
         self.back_offs += 1;
         let bearing = self.contact.take().map_or(0.0, |contact| contact.bearing);
-        if bearing.cos().abs() >= ASIDE {
+        if self.building.facing.is_some() {
+            // it came from there, so that it is free
+            let back = self.line.from - self.pose().at;
+            let back =
+                if back.length() > LEAST_BACK_M { self.pose().bearing(self.line.from) } else { bearing + PI };
+            self.drive_straight(body, self.back_off_m(self.pose().direction(back)), back);
+        } else if bearing.cos().abs() >= ASIDE {
             let sign = -bearing.cos().signum();
-            self.drive_straight(body, sign * self.back_off_m(self.pose().direction(0.0) * sign));
+            self.drive_straight(body, sign * self.back_off_m(self.pose().direction(0.0) * sign), 0.0);
         } else {
             body.command(Command::Turn { by: bearing });
             let far = self.back_off_m(-self.pose().direction(bearing));
@@ -99,13 +126,14 @@ impl Navigator<'_> {
     /// How far it withdraws in a direction: no farther than is free there.
     fn back_off_m(&self, towards: Point) -> f64 {
         let (at, far) = (self.pose().at, self.settings.back_off_m);
-        let free = free_ahead(at, at + towards * far, [self.radius_m; 2], &self.barriers);
+        let free = free_ahead(&self.rim, at, at + towards * far, [self.rim.radius_m(); 2], &self.barriers);
         if free.by.is_some() { (free.metres / 2.0).max(LEAST_BACK_M) } else { far }
     }
 
-    pub(super) fn drive_straight(&mut self, body: &mut impl Body, distance_m: f64) {
-        body.command(Command::Move { distance_m, speed_m_s: self.settings.speed_m_s });
-        self.course = self.sensed.as_ref().map(|sensed| Course { from: sensed.odometry, distance_m });
+    pub(super) fn drive_straight(&mut self, body: &mut impl Body, distance_m: f64, bearing: f64) {
+        body.command(Command::Move { distance_m, bearing, speed_m_s: self.settings.speed_m_s });
+        self.course =
+            self.sensed.as_ref().map(|sensed| Course { from: sensed.odometry, distance_m, bearing });
         self.readings_standing = 0;
     }
 

@@ -200,7 +200,7 @@ impl Navigator<'_> {
             regions.iter().any(|region| region.contains(at))
                 || floor.iter().any(|piece| polygon::is_in_convex(piece, at, 0.0))
         };
-        self.whereabouts.walls.look_from(is_free, self.radius_m, self.model.settings());
+        self.whereabouts.walls.look_from(is_free, self.rim.inner_m(), self.model.settings());
     }
 }
 

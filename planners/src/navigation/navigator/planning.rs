@@ -43,7 +43,7 @@ impl Navigator<'_> {
         barriers.splice(self.obstacles_from..self.obstacles_from, closed);
         let obstacles_from = self.obstacles_from + self.building.closed.len();
         let narrow = Ground { obstacles_from, ..self.ground(&barriers) };
-        let wide = Ground { reach: self.radius_m + self.settings.detour_room_m, ..narrow };
+        let wide = Ground { reach: self.rim.radius_m() + self.settings.detour_room_m, ..narrow };
         let found = narrow.detours(from, to);
         let Some(shortest) = found.shortest_m() else { return found };
         let with_room = wide.detours(from, to);
@@ -55,8 +55,9 @@ impl Navigator<'_> {
         Ground {
             barriers,
             obstacles_from: self.obstacles_from,
-            reach: self.radius_m + self.settings.detour_clearance_m,
-            least: self.radius_m,
+            rim: self.rim,
+            reach: self.rim.radius_m() + self.settings.detour_clearance_m,
+            least: self.rim.radius_m(),
             aside: self.settings.detour_reach_m,
             grain: self.settings.grain_m,
         }
@@ -65,13 +66,13 @@ impl Navigator<'_> {
     pub(super) fn close(&mut self, judge: &mut impl Judge) {
         self.spot.closed += 1;
         let at = self.pose().at;
-        let reach = self.radius_m + self.settings.detour_clearance_m;
+        let reach = self.rim.radius_m() + self.settings.detour_clearance_m;
         if let Some(&target) = self.legs.front() {
-            let free = free_ahead(at, target, [self.radius_m, reach], &self.barriers);
+            let free = free_ahead(&self.rim, at, target, [self.rim.radius_m(), reach], &self.barriers);
             let share = free.metres / at.distance(target).max(ROUNDING_M);
             let stop = at.lerp(target, share);
             let met = free.by.map(|by| self.barriers[by]);
-            let at = met.map_or(stop, |barrier| stop.nearest_on(barrier.a, barrier.b));
+            let at = met.map_or(stop, |barrier| self.rim.nearest_on(stop, &barrier));
             let is_known = free.by.is_some_and(|by| by < self.obstacles_from);
             let beside = self.met_beside_change().map(|met| met.nearest_to(self.pose().at));
             let (at, is_known) = (beside.unwrap_or(at), is_known && beside.is_none());
@@ -123,13 +124,16 @@ impl Navigator<'_> {
     /// Goes back on its own track first: what moves may be waiting for the robot, as it waits for that.
     fn give_way(&mut self) {
         let at = self.pose().at;
-        let reach = self.radius_m + self.settings.highway_clearance_m;
+        let reach = self.rim.radius_m() + self.settings.highway_clearance_m;
         let is_near = |back: &&Point| {
             let far = back.distance(at);
             far > self.settings.goal_tolerance_m && far <= self.settings.give_way_m
         };
-        let clear =
-            self.track.iter().filter(is_near).find(|back| is_clear(at, **back, reach, &self.barriers));
+        let clear = self
+            .track
+            .iter()
+            .filter(is_near)
+            .find(|back| is_clear(&self.rim, at, **back, reach, &self.barriers));
         if let Some(&back) = clear.filter(|_| !self.legs.is_empty()) {
             self.legs.push_front(at);
             self.legs.push_front(back);
@@ -156,7 +160,7 @@ impl Navigator<'_> {
         }
         let mut route = route.or_else(|| off_network(self.building, ground, ends));
         if route.is_none() && self.squeezes < self.settings.most_squeezes {
-            let reach = self.radius_m + self.settings.squeeze_m;
+            let reach = self.rim.radius_m() + self.settings.squeeze_m;
             route = off_network(self.building, Ground { reach, ..ground }, ends);
             self.squeezes += u32::from(route.is_some());
         }

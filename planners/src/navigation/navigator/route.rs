@@ -1,10 +1,11 @@
-//! Ways that somebody else finds: gone stretch by stretch, each in the shape that it asks for.
+//! Ways that somebody else finds: gone stretch by stretch, each in the stance that it asks for.
 
 use super::{Navigator, Spot};
 use crate::geometry::{Point, Segment, path_length};
 use crate::navigation::Settings;
 use crate::navigation::event::Happening;
 use crate::navigation::judge::Mode;
+use crate::navigation::known::Building;
 use crate::navigation::stretch::Stretch;
 
 /// No robot keeps to a way more exactly than for so much room beside it, metres.
@@ -71,8 +72,8 @@ impl Navigator<'_> {
     /// Whether a way from where it is is what it has before it.
     fn is_on(&self, way: &[Stretch]) -> bool {
         let after_first = |stretch: &Stretch| {
-            let shape = stretch.shape;
-            stretch.points.iter().skip(1).map(move |at| (shape, *at)).collect::<Vec<_>>()
+            let stance = stretch.stance;
+            stretch.points.iter().skip(1).map(move |at| (stance, *at)).collect::<Vec<_>>()
         };
         let rest = self.legs.iter().map(|at| (self.needed, *at));
         let rest = rest.chain(self.stretches.iter().flat_map(after_first));
@@ -96,11 +97,11 @@ impl Navigator<'_> {
     /// # Returns
     /// Whether there is one.
     pub(super) fn goes_on(&mut self) -> bool {
-        let Some(Stretch { shape, points }) = self.stretches.pop_front() else { return false };
+        let Some(Stretch { stance, points }) = self.stretches.pop_front() else { return false };
         // it stands at the first one already
         let at_it = usize::from(points.len() > 1);
         self.came_from = points.first().copied().unwrap_or_else(|| self.pose().at);
-        (self.needed, self.legs) = (shape, points.into_iter().skip(at_it).collect());
+        (self.needed, self.legs) = (stance, points.into_iter().skip(at_it).collect());
         true
     }
 
@@ -110,17 +111,18 @@ impl Navigator<'_> {
         let figures = self.settings;
         let Some(&target) = self.legs.front().filter(|_| self.mode == Mode::Route) else { return figures };
         let leg = Segment::new(self.came_from, target);
-        let nearest = self.barriers.iter().map(|barrier| leg.gap(barrier)).fold(f64::INFINITY, f64::min);
-        let mut room = nearest - self.radius_m;
+        let gaps = self.barriers.iter().map(|barrier| self.rim.way_distance(&leg, barrier));
+        let mut room = gaps.fold(f64::INFINITY, f64::min) - self.rim.radius_m();
         let mut at_change = f64::INFINITY;
         if let (1, Some(next)) = (self.legs.len(), self.stretches.front())
-            && let Some(building) = self.shapes.get(next.shape)
+            && let Some(building) = self.stances.get(next.stance)
         {
             // it changes its shape there
             let met = &self.barriers[self.obstacles_from..];
             let there = building.walls.iter().chain(&building.overhead).chain(met);
-            let nearest = there.map(|barrier| barrier.distance(target)).fold(f64::INFINITY, f64::min);
-            at_change = (nearest - building.network.disc.radius).max(LEAST_ROOM_M);
+            let gaps = there.map(|barrier| building.rim.distance(target, barrier));
+            let nearest = gaps.fold(f64::INFINITY, f64::min);
+            at_change = (nearest - building.rim.radius_m()).max(LEAST_ROOM_M);
             room = room.min(at_change);
         }
         let room = room.max(LEAST_ROOM_M);
@@ -138,31 +140,45 @@ impl Navigator<'_> {
         }
     }
 
-    /// Whether the robot has to be in another shape before it goes on.
+    /// Whether the robot has to be in another shape, or to face elsewhere, before it goes on.
     pub(super) fn is_changing(&self) -> bool {
-        !self.legs.is_empty() && self.sensed.as_ref().is_some_and(|sensed| sensed.shape != self.needed)
+        let is_other = |needed: &Building| {
+            self.shape() != needed.shape
+                || needed.off_facing(self.pose().heading).abs() > self.settings.off_facing
+        };
+        let is_known = !self.legs.is_empty() && self.sensed.is_some();
+        is_known && self.stances.get(self.needed).is_none_or(is_other)
     }
 
     /// What leaves no room for the shape in which the robot has to be before it goes on: what was met, with some room, and what is
     /// known to stand or hang there.
     pub(super) fn met_beside_change(&self) -> Option<Segment> {
-        let shape = self.shapes.get(self.needed).filter(|_| self.is_changing())?;
-        let radius = shape.network.disc.radius;
-        let reach = if radius > self.radius_m { radius + self.settings.detour_clearance_m } else { 0.0 };
-        let at = self.pose().at;
+        let needed = self.stances.get(self.needed).filter(|_| self.is_changing())?;
+        let (rim, at) = (&needed.rim, self.pose().at);
+        let radius = rim.radius_m();
+        let is_larger = rim.outer_m() > self.rim.outer_m() || needed.facing.is_some();
+        let reach = if is_larger { radius + self.settings.detour_clearance_m } else { 0.0 };
         let met = self.barriers[self.obstacles_from..].iter().chain(&self.moving);
-        let met = met.filter(|met| met.distance(at) < reach);
-        let known = shape.walls.iter().chain(&shape.overhead).filter(|known| known.distance(at) < radius);
-        met.chain(known).min_by(|one, other| one.distance(at).total_cmp(&other.distance(at))).copied()
+        let met = met.filter(|met| rim.distance(at, met) < reach);
+        let known = needed.walls.iter().chain(&needed.overhead);
+        let known = known.filter(|known| rim.distance(at, known) < radius);
+        let far = |barrier: &Segment| rim.distance(at, barrier);
+        met.chain(known).min_by(|one, other| far(one).total_cmp(&far(other))).copied()
     }
 
-    /// Looks at the building as it is for the robot in a shape.
-    pub(super) fn take_shape(&mut self, shape: usize) {
-        let Some(building) = self.shapes.get(shape) else { return };
+    /// Looks at the building as it is for the robot in a shape, at the facing at which it stands.
+    pub(super) fn take_stance(&mut self, shape: usize) {
+        let heading = self.pose().heading;
+        let own = self.stances.iter().filter(|stance| stance.shape == shape);
+        let off = |stance: &Building| stance.off_facing(heading).abs();
+        let Some(building) = own.min_by(|one, other| off(one).total_cmp(&off(other))) else { return };
         if !std::ptr::eq(building, self.building) {
+            let is_other_shape = building.shape != self.building.shape;
             self.building = building;
             self.barriers = [&building.walls[..], &building.overhead].concat();
-            self.tell(Happening::Shape(shape));
+            if is_other_shape {
+                self.tell(Happening::Shape(shape));
+            }
             self.gather();
         }
     }

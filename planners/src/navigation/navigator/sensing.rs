@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use super::{Navigator, TRACK_M, TRACK_POINTS};
 use crate::body::{Body, Silence};
-use crate::geometry::Segment;
+use crate::geometry::{Point, Segment};
 use crate::navigation::event::Happening;
 use crate::navigation::judge::{Judge, Mode, State};
 use crate::navigation::known::moving;
@@ -13,7 +13,7 @@ impl Navigator<'_> {
     pub(super) fn sense(&mut self, body: &mut impl Body, judge: &mut impl Judge) -> Result<(), Silence> {
         let before = self.sensed.as_ref().and_then(|sensed| sensed.contact);
         let mut sensed = body.sense()?;
-        (self.radius_m, self.directions) = (body.radius_m(), body.directions());
+        self.directions = body.directions();
         self.model.reckon(&sensed.odometry);
         let is_held = !sensed.is_busy && self.course.is_some_and(|course| course.is_held(&sensed));
         let touch = sensed.contact.filter(|_| before.is_none() || is_held);
@@ -25,16 +25,18 @@ impl Navigator<'_> {
             if sensed.is_busy { 0 } else { self.readings_standing + sensed.readings.len() };
         self.part.append(&mut sensed.readings);
         self.sensed = Some(sensed);
-        self.take_shape(shape);
+        self.take_stance(shape);
+        self.rim = body.rim().turned(self.building.facing.unwrap_or(0.0));
         self.keep_track();
         if let Some(contact) = touch {
             // What runs into a robot that stands, or goes elsewhere, is in the model then, and no reason to stop.
             let is_ahead = self.course.is_some_and(|course| course.leads_to(contact));
+            let far_m = body.rim().reach_m(Point::towards(contact.bearing));
             if is_held || is_ahead || self.state == State::Turn {
                 self.contact = self.contact.or(Some(contact));
-                self.felt.push((time_s, self.model.surface_at(&contact, self.radius_m)));
+                self.felt.push((time_s, self.model.surface_at(&contact, far_m)));
             }
-            self.model.touched(&contact, self.radius_m, |facts| judge.segment(facts));
+            self.model.touched(&contact, far_m, |facts| judge.segment(facts));
             self.gather();
             self.tell(Happening::Contact { bearing: contact.bearing });
         }
@@ -74,7 +76,7 @@ impl Navigator<'_> {
         }
         if let (Some(seen), Some(sensed)) = (&mut self.seen, &self.sensed) {
             let pose = self.model.estimate().pose;
-            seen.look(&part, &pose, &sensed.odometry, self.radius_m, &self.barriers);
+            seen.look(&part, &pose, &sensed.odometry, self.rim.inner_m(), &self.barriers);
         }
         if !(update.entered.is_empty() && update.removed.is_empty()) {
             self.tell(Happening::Segments { entered: update.entered, removed: update.removed });

@@ -19,7 +19,7 @@ impl Navigator<'_> {
             has_goal: target.is_some(),
             distance_m,
             is_falling: distance_m <= self.line.nearest_m + self.settings.falling_m,
-            heading_error: target.map_or(0.0, |target| pose.bearing(target).abs()),
+            heading_error: target.map_or(0.0, |target| self.heading_off(target).abs()),
             off_line_m: target
                 .map_or(0.0, |target| pose.at.distance(pose.at.nearest_on(self.line.from, target))),
             free_m,
@@ -56,12 +56,23 @@ impl Navigator<'_> {
         }
     }
 
+    /// By how much it has to turn before it goes to a point, radians: who keeps its facing goes there as it stands.
+    pub(super) fn heading_off(&self, target: Point) -> f64 {
+        let pose = self.pose();
+        if self.building.facing.is_some() {
+            self.building.off_facing(pose.heading)
+        } else {
+            pose.bearing(target)
+        }
+    }
+
     /// Metres ahead that are free in the model, and whether what is there moves.
     pub(super) fn free_m(&self, target: Option<Point>) -> (f64, bool) {
         let Some(target) = target else { return (0.0, false) };
-        let reach = [self.radius_m, self.radius_m + self.figures().highway_clearance_m];
-        let standing = free_ahead(self.pose().at, target, reach, &self.barriers);
-        let moving = free_ahead(self.pose().at, target, reach, &self.moving);
+        let least = self.rim.radius_m();
+        let reach = [least, least + self.figures().highway_clearance_m];
+        let standing = free_ahead(&self.rim, self.pose().at, target, reach, &self.barriers);
+        let moving = free_ahead(&self.rim, self.pose().at, target, reach, &self.moving);
         (standing.metres.min(moving.metres), moving.by.is_some() && moving.metres <= standing.metres)
     }
 
@@ -71,7 +82,17 @@ impl Navigator<'_> {
         let pose = self.pose();
         let distance = pose.at.distance(target);
         let heading = pose.bearing(target);
-        let half = self.radius_m + self.settings.highway_clearance_m;
+        let clearance = self.settings.highway_clearance_m;
+        let towards = pose.direction(heading);
+        let sides = [towards.perpendicular(), -towards.perpendicular()];
+        let [left, right] = sides.map(|side| self.rim.extent_m(side) + clearance);
+        let front = |aside: f64| {
+            if self.rim.is_disc() {
+                (left.powi(2) - aside.powi(2)).max(0.0).sqrt()
+            } else {
+                self.rim.extent_m(towards) + clearance
+            }
+        };
         let ahead = self.part.iter().filter_map(|reading| {
             let from = sensed.odometry.to(&reading.odometry);
             let towards = from.direction(reading.bearing);
@@ -79,8 +100,8 @@ impl Navigator<'_> {
             let at = from.at + towards * range;
             let (sin, cos) = heading.sin_cos();
             let (ahead, aside) = (at.x * cos + at.y * sin, at.y * cos - at.x * sin);
-            let free = ahead - (half.powi(2) - aside.powi(2)).max(0.0).sqrt();
-            (aside.abs() < half && ahead > 0.0 && free < distance).then_some(free.max(0.0))
+            let free = ahead - front(aside);
+            (aside < left && aside > -right && ahead > 0.0 && free < distance).then_some(free.max(0.0))
         });
         let mut near: Vec<f64> = ahead.collect();
         near.sort_by(f64::total_cmp);

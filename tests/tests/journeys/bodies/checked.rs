@@ -5,7 +5,7 @@ use std::process::{Command, Stdio};
 use std::sync::Mutex;
 use std::thread;
 
-use adit_tests::adit;
+use adit_tests::{TestSite, adit};
 use serde_json::Value;
 
 use super::{conform, faulty, floor, in_python, simulated};
@@ -28,14 +28,27 @@ fn failed(body: &str, more: &[&str]) -> [Vec<String>; 2] {
 #[test]
 fn our_simulator_and_the_body_in_python_do_all_that_the_protocol_asks() {
     let site = floor();
-    let none: [Vec<String>; 2] = Default::default();
+    let none = [Vec::new(), vec!["aside".to_owned()]];
     assert_eq!(failed(&simulated(&site, "home", "--seed 7"), &[]), none);
     assert_eq!(failed(&in_python(&site, ""), &[]), none);
     let words = conform(&in_python(&site, ""), &[]).expect_status(0).stdout;
     assert!(
-        words.contains(" contact     held  felt at ") && words.contains("23 held, 0 not held"),
+        words.contains(" contact     held       felt at ") && words.contains("23 held, 0 not held"),
         "{words}"
     );
+}
+
+#[test]
+fn a_body_that_is_longer_than_wide_goes_aside_and_keeps_its_facing() {
+    let site = TestSite::example("depot");
+    let robots = site.read("robots.toml");
+    let (first, last) = (robots.find("state    = \"SIDE-STEP\""), robots.find("# On tracks"));
+    let (Some(first), Some(last)) = (first, last) else { panic!("the dog side-steps: {robots}") };
+    site.write("robots.toml", format!("[[robots]]\nrobot = \"dog\"\n{}", &robots[first..last]));
+    let site = site.built();
+    let start = "2,2";
+    let not_held = failed(&simulated(&site, start, "--seed 7"), &[]);
+    assert_eq!(not_held, <[Vec<String>; 2]>::default());
 }
 
 #[test]
@@ -55,7 +68,7 @@ fn a_body_at_a_socket_is_checked_as_one_that_is_started() {
     let outcomes = [failed(&address, &[]), failed(&address, &[])];
     body.kill().expect("ended");
     body.wait().expect("ended");
-    assert_eq!(outcomes, <[[Vec<String>; 2]; 2]>::default());
+    assert_eq!(outcomes, [(); 2].map(|()| [Vec::new(), vec!["aside".to_owned()]]));
 }
 
 /// Each fault, the check that is about it, and what cannot but fail with it.

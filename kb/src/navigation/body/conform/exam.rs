@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use adit_planners::pose::{Pose, wrapped};
 
 use crate::navigation::body::link::{Ends, Link};
-use crate::navigation::body::message::{Answer, Order, Profile, Senses};
+use crate::navigation::body::message::{Answer, Order, Outline, Profile, Senses};
 use crate::navigation::body::terms::{About, Terms};
 
 /// The link is over: nothing more can be asked.
@@ -107,11 +107,11 @@ impl Exam {
         self.terms.as_ref().map(|terms| &terms.profile).ok_or(Over)
     }
 
-    /// The radius of the shape in which it is, metres.
-    pub fn radius_m(&self) -> Result<f64, Over> {
+    /// The shape in which it is.
+    pub fn outline(&self) -> Result<&Outline, Over> {
         let profile = self.profile()?;
         let now = self.last.as_ref().map_or(&profile.shape, |last| &last.shape);
-        profile.shapes.iter().find(|outline| outline.name == *now).map(|outline| outline.radius_m).ok_or(Over)
+        profile.shapes.iter().find(|outline| outline.name == *now).ok_or(Over)
     }
 
     pub fn ask(&mut self, order: &Order) -> Result<Answer, Over> {

@@ -1,5 +1,7 @@
 //! Whether it measures what is about it, and feels what it touches.
 
+use adit_planners::geometry::Point;
+
 use super::exam::{Exam, Over, PATIENCE_S};
 use super::moving::{SLOW_M_S, STEP_M, go, went};
 use super::scan::Scan;
@@ -105,7 +107,7 @@ pub fn contact(exam: &mut Exam) -> Result<(), Over> {
     let around = scan(exam, TURNS)?;
     let nearest = around.nearest();
     let gap = |range: f64, radius: f64| (range - radius).max(0.0);
-    let radius = exam.radius_m()?;
+    let radius = exam.outline()?.rim().extent_m(Point::new(1.0, 0.0));
     let Some((bearing, range)) = nearest.filter(|(_, range)| gap(*range, radius) <= NEAR_M) else {
         exam.say("contact", None, format!("nothing to touch is within {NEAR_M} m"));
         return Ok(());

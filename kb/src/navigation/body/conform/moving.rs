@@ -1,5 +1,7 @@
 //! Whether it moves as it is told, and says so.
 
+use std::f64::consts::FRAC_PI_2;
+
 use adit_planners::pose::{Pose, wrapped};
 
 use super::exam::{Done, Exam, Over, PATIENCE_S};
@@ -23,7 +25,7 @@ const CHANGED_S: f64 = 120.0;
 const FASTER: f64 = 1.2;
 
 pub const fn go(distance_m: f64) -> Order {
-    Order::Move { distance_m, speed_m_s: SLOW_M_S }
+    Order::Move { distance_m, speed_m_s: SLOW_M_S, bearing_rad: 0.0 }
 }
 
 fn told(way: &Pose) -> String {
@@ -99,6 +101,23 @@ pub fn anew(exam: &mut Exam) -> Result<(), Over> {
     exam.done(&Order::Turn { by_rad: -way.heading }, PATIENCE_S)?;
     let now = exam.pose()?;
     exam.done(&go(-from.to(&now).at.x), PATIENCE_S).map(|_| ())
+}
+
+/// Goes to a side and back: a body that is longer than wide keeps its facing.
+pub fn aside(exam: &mut Exam) -> Result<(), Over> {
+    if exam.outline()?.length_m.is_none() {
+        exam.say("aside", None, "it is round, and goes where it looks");
+        return Ok(());
+    }
+    let aside = |distance_m| Order::Move { distance_m, speed_m_s: SLOW_M_S, bearing_rad: FRAC_PI_2 };
+    let done = exam.done(&aside(STEP_M), PATIENCE_S)?;
+    let way = done.way();
+    let is_there = way.at.x.abs() <= MOVE_M && (way.at.y - STEP_M).abs() <= MOVE_M;
+    let held = is_there && wrapped(way.heading).abs() <= TURN && done.refused.is_none();
+    // what is felt on the way ends it
+    let is_felt = done.senses.iter().any(|senses| senses.contact.is_some());
+    exam.say("aside", (held || !is_felt).then_some(held), done.refused.clone().unwrap_or_else(|| told(&way)));
+    exam.done(&aside(-way.at.y), PATIENCE_S).map(|_| ())
 }
 
 pub fn change(exam: &mut Exam) -> Result<(), Over> {

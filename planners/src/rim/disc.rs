@@ -10,7 +10,7 @@ pub(super) const HAIR_M: f64 = ROUNDING_M;
 const ACROSS: f64 = 1e-12;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Touch {
+pub struct Touch {
     /// Share of the way until then.
     pub share: f64,
     /// The point that was touched, where it was at that time.
