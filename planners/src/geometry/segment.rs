@@ -138,8 +138,12 @@ impl Segment {
     /// `towards` has length 1. A ray along the segment does not meet it.
     pub fn hit(&self, from: Point, towards: Point) -> Option<(f64, f64)> {
         let (way, out) = (self.b - self.a, self.a - from);
-        let sine = towards.cross(way);
-        let (share, range) = (out.cross(towards) / sine, out.cross(way) / sine);
+        let (sine, aside) = (towards.cross(way), out.cross(towards));
+        // most rays miss, which is told without divisions
+        if aside.abs() > sine.abs() {
+            return None;
+        }
+        let (share, range) = (aside / sine, out.cross(way) / sine);
         (range >= 0.0 && (0.0..=1.0).contains(&share)).then_some((range, share))
     }
 }
