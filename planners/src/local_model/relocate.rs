@@ -255,10 +255,16 @@ impl KnownWalls {
     pub fn recognise(&self, scan: &Scan, pose: &Pose) -> Recognition {
         let (mut run, mut contradicted, mut explained, mut unexplained) = (0, 0, 0, 0);
         for ray in &scan.rays {
-            let beside = [-BESIDE, 0.0, BESIDE].map(|by| self.range_m(pose, ray.bearing + by, scan.reach_m));
+            let cast = |by: f64| self.range_m(pose, ray.bearing + by, scan.reach_m);
+            let (range_m, ahead) = (ray.range_m.unwrap_or(f64::INFINITY), cast(0.0));
+            // whatever is beside it, where it ends is explained then
+            if ahead < scan.reach_m && range_m > ahead - ON_M && range_m < ahead + ON_M {
+                (run, explained) = (0, explained + 1);
+                continue;
+            }
+            let beside = [cast(-BESIDE), ahead, cast(BESIDE)];
             let near = beside.into_iter().fold(f64::INFINITY, f64::min);
             let far = beside.into_iter().fold(0.0, f64::max);
-            let range_m = ray.range_m.unwrap_or(f64::INFINITY);
             run = if far < scan.reach_m && range_m > far + THROUGH_M { run + 1 } else { 0 };
             contradicted = contradicted.max(run);
             unexplained += usize::from(ray.range_m.is_some() && range_m < near - THROUGH_M);
@@ -407,5 +413,50 @@ impl View {
     /// As [`Scan::likelihood`] for a robot here that is turned by so many beams.
     fn likelihood(&self, scan: &Scan, turn: usize) -> f64 {
         scan.likelihood(|ray| f64::from(self.ranges_m[(ray.beam + turn) % VIEW]))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    /// The same with all beams beside a beam, whatever lies ahead.
+    fn recognised(walls: &KnownWalls, scan: &Scan, pose: &Pose) -> Recognition {
+        let (mut run, mut contradicted, mut explained, mut unexplained) = (0, 0, 0, 0);
+        for ray in &scan.rays {
+            let beside = [-BESIDE, 0.0, BESIDE].map(|by| walls.range_m(pose, ray.bearing + by, scan.reach_m));
+            let (near, far) =
+                beside.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), p| (a.min(*p), b.max(*p)));
+            let range_m = ray.range_m.unwrap_or(f64::INFINITY);
+            run = if far < scan.reach_m && range_m > far + THROUGH_M { run + 1 } else { 0 };
+            contradicted = contradicted.max(run);
+            unexplained += usize::from(ray.range_m.is_some() && range_m < near - THROUGH_M);
+            let is_on = near < scan.reach_m && range_m > near - ON_M && range_m < far + ON_M;
+            explained += usize::from(is_on);
+        }
+        let [explained, unexplained] = [explained, unexplained].map(|of| of as f64 / scan.rays.len() as f64);
+        Recognition { explained, unexplained, contradicted }
+    }
+
+    proptest! {
+        #[test]
+        fn what_a_beam_meets_tells_what_those_beside_it_would(
+            ends in prop::collection::vec((-4.0..4.0, -4.0..4.0, -4.0..4.0, -4.0..4.0), 1..12),
+            off_m in prop::collection::vec(prop::option::of(-0.6..0.6), 120),
+        ) {
+            let wall = |(x0, y0, x1, y1)| Segment::new(Point::new(x0, y0), Point::new(x1, y1));
+            let walls = KnownWalls::new(ends.into_iter().map(wall).collect());
+            let (pose, settings) = (Pose::default(), Settings::default());
+            let reading = |(i, off_m): (usize, Option<f64>)| {
+                let bearing = TAU * i as f64 / VIEW as f64;
+                let range_m = off_m.map(|off_m| walls.range_m(&pose, bearing, 5.0).min(5.0) + off_m);
+                Reading { bearing, range_m, odometry: pose }
+            };
+            let readings: Vec<Reading> = off_m.into_iter().enumerate().map(reading).collect();
+            let scan = Scan::new(&readings, &settings);
+            prop_assert_eq!(walls.recognise(&scan, &pose), recognised(&walls, &scan, &pose));
+        }
     }
 }
