@@ -1,10 +1,10 @@
 //! What a scan shows put together with the model.
 
 use super::super::fit::Echo;
-use super::super::matching::{Near, matches};
+use super::super::matching::{Match, Nearby};
 use super::super::reinforce::{reinforce, same_surface};
 use super::super::sensor_model::Seen;
-use super::super::{LocalModel, SegmentId, Settings};
+use super::super::{LocalModel, SegmentId};
 use super::Update;
 use super::looking::{Explained, Look};
 use crate::geometry::Rect;
@@ -20,14 +20,16 @@ impl LocalModel {
     pub(super) fn integrate(
         &mut self,
         seen: &[Seen],
-        near: &[Near],
+        near: &Nearby,
         looks: &mut [Look],
         explained: &mut [Explained],
         update: &mut Update,
     ) -> (Vec<Seen>, Vec<usize>) {
         let (mut new, mut changed) = (Vec::new(), Vec::new());
         for one in seen {
-            let found = self.matches(one, near);
+            // whatever lies on the same line leaves nothing of it, however short the part beside it
+            let beside = self.matches(one, 0.0, near);
+            let found: Vec<&Match> = beside.iter().filter(|on| on.is_enough).collect();
             if found.is_empty() {
                 // a line through the echoes on either side of a known corner is no surface
                 let others = one.echoes.iter().filter(|echo| !explained[echo.beam].by_known).count();
@@ -41,7 +43,7 @@ impl LocalModel {
                 looks[on.model].is_matched = true;
             }
             if found.iter().any(|on| self.segments[on.model].is_anchored) {
-                new.extend(self.beside(one, near));
+                new.extend(self.beside(one, &beside));
             } else {
                 let segment = &mut self.segments[found[0].model];
                 reinforce(segment, &one.fit, &one.line, &self.estimate);
@@ -56,12 +58,9 @@ impl LocalModel {
         (new, changed)
     }
 
-    /// The pieces of a scan's segment that lie beside none of the segments on which it lies. One between two walls, with
+    /// The pieces of a scan's segment that lie beside none of the segments `on` which parts of it lie. One between two walls, with
     /// echoes in it, fills the gap: a closed door. One at an end has to be enough for a segment of its own.
-    pub(super) fn beside(&self, one: &Seen, near: &[Near]) -> Vec<Seen> {
-        // whatever lies on the same line leaves nothing of it, however short the part beside it
-        let settings = Settings { match_overlap: 0.0, ..self.settings };
-        let on = matches(one, near, &self.segments, &self.estimate, &settings);
+    fn beside(&self, one: &Seen, on: &[Match]) -> Vec<Seen> {
         let place = |p| one.fit.place(p);
         let ordered = |a: f64, b: f64| (a.min(b), a.max(b));
         let lines = on.iter().map(|on| self.segments[on.model].line);
@@ -93,24 +92,25 @@ impl LocalModel {
     pub(super) fn merge(
         &mut self,
         changed: &[SegmentId],
-        near: &[Near],
+        near: &Nearby,
         looks: &mut Vec<Look>,
     ) -> Vec<SegmentId> {
         let reach = self.settings.match_offset_m;
         let is_apart = |a: &Rect, b: &Rect| {
             a.x1 + reach < b.x0 || b.x1 + reach < a.x0 || a.y1 + reach < b.y0 || b.y1 + reach < a.y0
         };
-        let mut bounds: Vec<Rect> = near.iter().map(|wall| self.segments[wall.model].line.bounds()).collect();
+        let mut bounds: Vec<Rect> =
+            near.walls.iter().map(|wall| self.segments[wall.model].line.bounds()).collect();
         let mut is_absorbed = vec![false; self.segments.len()];
         for id in changed {
             let Ok(one) = self.place(*id) else { continue };
             // those near stand in the order of their places
-            let Ok(own) = near.binary_search_by_key(&one, |wall| wall.model) else { continue };
+            let Ok(own) = near.walls.binary_search_by_key(&one, |wall| wall.model) else { continue };
             if is_absorbed[one] || self.segments[one].is_anchored {
                 continue;
             }
-            for index in 0..near.len() {
-                let other = near[index].model;
+            for index in 0..near.walls.len() {
+                let other = near.walls[index].model;
                 if is_apart(&bounds[own], &bounds[index]) || one == other || is_absorbed[other] {
                     continue;
                 }

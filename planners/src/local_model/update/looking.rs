@@ -2,7 +2,7 @@
 
 use super::super::beam::Beam;
 use super::super::correction::Correction;
-use super::super::matching::{Match, Near, matches};
+use super::super::matching::{Match, Nearby, matches};
 use super::super::sensor_model::Seen;
 use super::super::sight::{Crossing, Evidence, Fan};
 use super::super::{LocalModel, ModelSegment};
@@ -35,20 +35,21 @@ impl LocalModel {
         self.segments.iter().enumerate().filter(move |(_, segment)| is_near(segment)).map(|(place, _)| place)
     }
 
-    pub(super) fn near(&self) -> Vec<Near> {
-        self.within_hearing().map(|place| Near::new(place, &self.segments[place])).collect()
+    pub(super) fn near(&self) -> Nearby {
+        Nearby::new(self.within_hearing(), &self.segments, self.estimate.pose.at)
     }
 
-    pub(super) fn matches(&self, seen: &Seen, near: &[Near]) -> Vec<Match> {
-        matches(seen, near, &self.segments, &self.estimate, &self.settings)
+    /// The segments on which one of a scan may lie, of the shorter of which such a share lies beside the other.
+    pub(super) fn matches(&self, seen: &Seen, least_overlap: f64, near: &Nearby) -> Vec<Match> {
+        matches(seen, least_overlap, near, &self.segments, &self.estimate, &self.settings)
     }
 
     /// The mean error of matched segments, in orientation and position.
-    pub(super) fn correct_by_matches(&mut self, seen: &[Seen], near: &[Near]) -> usize {
+    pub(super) fn correct_by_matches(&mut self, seen: &[Seen], near: &Nearby) -> usize {
         let mut correction = Correction::new();
         for one in seen {
             let firm = |on: &Match| self.segments[on.model].counts_for_pose;
-            if let Some(on) = self.matches(one, near).into_iter().find(firm) {
+            if let Some(on) = self.matches(one, self.settings.match_overlap, near).into_iter().find(firm) {
                 correction.by_match(one, &on, &self.segments[on.model], &self.estimate, &self.settings);
             }
         }
@@ -57,10 +58,10 @@ impl LocalModel {
     }
 
     /// How many beams end where the nearest of the segments is that scans leave where they are.
-    pub(super) fn explained(&self, beams: &[Beam], near: &[Near]) -> usize {
+    pub(super) fn explained(&self, beams: &[Beam], near: &Nearby) -> usize {
         let fan = Fan::new(beams);
         let (mut firsts, mut crossings) = (vec![None::<Crossing>; beams.len()], Vec::new());
-        for wall in near.iter().filter(|wall| self.segments[wall.model].is_anchored) {
+        for wall in near.walls.iter().filter(|wall| self.segments[wall.model].is_anchored) {
             fan.crossings(&self.segments[wall.model], wall.length_m, beams, &self.settings, &mut crossings);
             for crossing in &crossings {
                 let first = &mut firsts[crossing.beam];
@@ -75,14 +76,14 @@ impl LocalModel {
     }
 
     /// What beams say of the segments within hearing, what each beam meets first, and how far the model explains it.
-    pub(super) fn look(&self, beams: &[Beam], near: &[Near]) -> (Vec<Look>, Vec<First>, Vec<Explained>) {
+    pub(super) fn look(&self, beams: &[Beam], near: &Nearby) -> (Vec<Look>, Vec<First>, Vec<Explained>) {
         let fan = Fan::new(beams);
         let mut looks = vec![Look::default(); self.segments.len()];
         let mut firsts: Vec<First> = vec![None; beams.len()];
         let mut explained = vec![Explained::default(); beams.len()];
         let mut crossings = Vec::new();
         let (at, least_sine) = (self.estimate.pose.at, self.settings.grazing_angle.sin());
-        for wall in near {
+        for wall in &near.walls {
             let segment = &self.segments[wall.model];
             fan.crossings(segment, wall.length_m, beams, &self.settings, &mut crossings);
             if crossings.is_empty() {
