@@ -92,6 +92,7 @@ impl LocalModel {
             let [place, heading] = self.estimate.variances_from(segment);
             let [sigma_m, _] = segment.relative_sigmas(&self.settings);
             let variance = place + sigma_m.powi(2) + heading * segment.line.squared_distance(at);
+            let mut is_told = false;
             for crossing in &crossings {
                 let first = &mut firsts[crossing.beam];
                 if first.is_none_or(|(_, other)| crossing.range_m < other.range_m) {
@@ -102,9 +103,13 @@ impl LocalModel {
                 let Explained { by_any, by_known } = &mut explained[crossing.beam];
                 *by_any |= agrees;
                 *by_known |= agrees && segment.is_anchored;
+                is_told |= agrees || beam.range_m.is_none_or(|range| range > crossing.range_m);
             }
-            looks[wall.model].evidence =
-                Evidence::new(&mut crossings, beams, wall.length_m, variance, least_sine, &self.settings);
+            // beams that all end before it say nothing
+            if is_told {
+                looks[wall.model].evidence =
+                    Evidence::new(&mut crossings, beams, wall.length_m, variance, least_sine, &self.settings);
+            }
         }
         (looks, firsts, explained)
     }
