@@ -29,10 +29,20 @@ impl Crossing {
     }
 }
 
+/// Parts of a turn, about as many as a scan has beams.
+const PARTS: usize = 128;
+
+/// In which of them a direction lies; the last is for what comes after the turn.
+fn part(direction: f64) -> usize {
+    ((direction * (PARTS as f64 / 4.0)) as usize).min(PARTS)
+}
+
 /// Beams sorted by direction, so that the few that can meet a segment are found at once.
 pub(super) struct Fan {
     /// Direction, as a number that grows with the angle from 0 to 4, and the beam.
     order: Vec<(f64, usize)>,
+    /// For equal parts of the turn the place in that order of the first beam in it or after it.
+    begins: Vec<usize>,
     centre: Point,
     /// How far from the centre the beams begin, at most.
     spread_m: f64,
@@ -47,7 +57,17 @@ impl Fan {
         let direction = |(i, beam): (usize, &Beam)| (beam.towards.diamond_angle(), i);
         let mut order: Vec<(f64, usize)> = beams.iter().enumerate().map(direction).collect();
         order.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        Self { order, centre, spread_m }
+        let mut begins = Vec::with_capacity(PARTS + 1);
+        for (place, (at, _)) in order.iter().enumerate() {
+            begins.resize(begins.len().max(part(*at) + 1), place);
+        }
+        begins.resize(PARTS + 1, order.len());
+        Self { order, begins, centre, spread_m }
+    }
+
+    /// Beams from a direction on, in order.
+    fn beams_from(&self, direction: f64) -> impl Iterator<Item = &(f64, usize)> {
+        self.order[self.begins[part(direction)]..].iter().skip_while(move |(at, _)| *at < direction)
     }
 
     /// All beams across a segment of a length, by place in the fan; beams reach as far as the sonar hears.
@@ -96,8 +116,7 @@ impl Fan {
         // the fan covers one turn, 0 to 4: mostly a segment lies in one of these only
         for around in [-4.0, 0.0, 4.0].into_iter().filter(|around| from + around <= 4.0 && to + around >= 0.0)
         {
-            let begin = self.order.partition_point(|(at, _)| *at < from + around);
-            let covered = self.order[begin..].iter().take_while(|(at, _)| *at <= to + around);
+            let covered = self.beams_from(from + around).take_while(|(at, _)| *at <= to + around);
             covered.for_each(&mut test);
         }
     }
@@ -157,5 +176,54 @@ impl Evidence {
 
     pub fn free_m(&self) -> f64 {
         self.free.iter().map(|(from, to)| to - from).sum()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::super::{Estimate, LocalModel, Transition};
+    use super::*;
+    use crate::geometry::Segment;
+    use crate::pose::Pose;
+
+    proptest! {
+        #[test]
+        fn no_beam_across_a_segment_is_forgotten(
+            (x0, y0, x1, y1) in (-3.0..3.0, -3.0..3.0, -3.0..3.0, -3.0..3.0),
+            beams in prop::collection::vec((-0.2..0.2, -0.2..0.2, 0.0..6.3), 0..150),
+            whole in any::<bool>(),
+        ) {
+            let at = |x: f64, y: f64| if whole { Point::new(x.round(), y.round()) } else { Point::new(x, y) };
+            let line = Segment::new(at(x0, y0), at(x1, y1));
+            let mut model = LocalModel::new(Settings::default(), Estimate::new(Pose::default(), 0.0, 0.0));
+            model.recall([(0, line)], |facts| Transition {
+                confidence: 5,
+                source: facts.source,
+                is_kept: true,
+                counts_for_pose: true,
+                is_anchored: true,
+                is_cut: false,
+            });
+            let beam = |(x, y, angle): (f64, f64, f64)| {
+                // along an axis, too
+                let towards = if whole { at(angle.cos(), angle.sin()) } else { Point::towards(angle) };
+                Beam { from: at(x, y), towards, range_m: Some(2.0), sigma_m: 0.01, since_m: 0.0 }
+            };
+            let is_direction = |beam: &Beam| (beam.towards.length() - 1.0).abs() < ROUNDING;
+            let beams: Vec<Beam> = beams.into_iter().map(beam).filter(is_direction).collect();
+            let (fan, settings) = (Fan::new(&beams), Settings::default());
+            let all = Fan { spread_m: f64::INFINITY, order: fan.order.clone(), begins: fan.begins.clone(), ..fan };
+            for segment in model.segments() {
+                let [found, expected] = [&fan, &all].map(|fan| {
+                    let mut crossings = Vec::new();
+                    fan.crossings(segment, line.length(), &beams, &settings, &mut crossings);
+                    crossings.sort_by_key(|crossing| crossing.beam);
+                    format!("{crossings:?}")
+                });
+                prop_assert_eq!(found, expected);
+            }
+        }
     }
 }
