@@ -19,8 +19,8 @@ impl Navigator<'_> {
     pub(super) fn keep_loose(&mut self, part: &[Reading]) {
         let at = self.pose().at;
         let reach = NEAR_M + SAME_THING_M;
-        let known: Vec<Segment> = self.barriers.iter().chain(&self.moving).copied().collect();
-        let near: Vec<Segment> = known.into_iter().filter(|line| line.distance(at) <= reach).collect();
+        let known = self.barriers.iter().chain(&self.moving).copied();
+        let near: Vec<Segment> = known.filter(|line| line.distance(at) <= reach).collect();
         let echoes: Vec<Option<Point>> = part.iter().map(|reading| self.loose_echo(reading, &near)).collect();
         let is_apart = |a: &Option<Point>, b: &Option<Point>| match (a, b) {
             (Some(a), Some(b)) => a.distance(*b) > SAME_THING_M,
