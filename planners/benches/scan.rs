@@ -15,6 +15,7 @@ use adit_planners::geometry::{Point, Segment};
 use adit_planners::local_model::{self, Estimate};
 use adit_planners::navigation::{Building, Happening, Navigator, Settings};
 use adit_planners::pose::Pose;
+use adit_planners::rim::Rim;
 use adit_planners::simulator::{self, Simulator};
 use divan::Bencher;
 use table::Table;
@@ -51,8 +52,8 @@ fn known(walls: Vec<Segment>) -> Building {
 struct Once(Sensed, usize);
 
 impl Body for Once {
-    fn radius_m(&self) -> f64 {
-        0.25
+    fn rim(&self) -> Rim {
+        Rim::disc(0.25)
     }
 
     fn directions(&self) -> usize {
