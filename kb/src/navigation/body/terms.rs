@@ -184,7 +184,10 @@ mod tests {
             (|it| it.shapes.clear(), "no shape"),
             (|it| it.shapes[1].name = "tall".to_owned(), "`tall` twice"),
             (|it| it.shapes[0].radius_m = 0.0, "is 0 m, expected more than 0"),
-            (|it| it.shapes[0].length_m = Some(-1.0), "the length of the shape `tall` is -1 m, expected more than 0"),
+            (
+                |it| it.shapes[0].length_m = Some(-1.0),
+                "the length of the shape `tall` is -1 m, expected more than 0",
+            ),
             (|it| it.directions = 0, "into 0 directions"),
             (|it| it.directions = 5000, "into 5000 directions"),
             (|it| it.range_m = -1.0, "as far as -1 m"),

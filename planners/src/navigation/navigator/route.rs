@@ -156,8 +156,14 @@ impl Navigator<'_> {
         let needed = self.stances.get(self.needed).filter(|_| self.is_changing())?;
         let (rim, at) = (&needed.rim, self.pose().at);
         let radius = rim.radius_m();
-        let is_larger = rim.outer_m() > self.rim.outer_m() || needed.facing.is_some();
-        let reach = if is_larger { radius + self.settings.detour_clearance_m } else { 0.0 };
+        let reach = if rim.outer_m() > self.rim.outer_m() {
+            radius + self.settings.detour_clearance_m
+        } else if needed.facing.is_some() {
+            // who only turns needs no more room than the way beside has
+            radius
+        } else {
+            0.0
+        };
         let met = self.barriers[self.obstacles_from..].iter().chain(&self.moving);
         let met = met.filter(|met| rim.distance(at, met) < reach);
         let known = needed.walls.iter().chain(&needed.overhead);
