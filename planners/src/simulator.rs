@@ -305,15 +305,18 @@ impl Simulator {
             self.touches.push(TouchEvent { time_s, at: touch.at, obstacle, by_robot: ahead > 0.0 });
         }
         self.pose.at = self.pose.at + step.way * share;
-        let held = self.free_turn(share * step.turn);
-        let turn = held.unwrap_or(share * step.turn);
+        // what stopped it is felt before the body drifts off it
+        let is_stopped = first.is_some() && robot_moved;
+        let by = if is_stopped && !self.placed().is_disc() { 0.0 } else { share * step.turn };
+        let held = self.free_turn(by);
+        let turn = held.unwrap_or(by);
         self.pose.heading = wrapped(self.pose.heading + turn);
         for (i, way) in ways.iter().enumerate() {
             let robot_way = Point::new(share * step.way.x, share * step.way.y);
             let free = self.free_share(i, *way, robot_way, share);
             self.movers[i].go(Point::new(free * way.x, free * way.y));
         }
-        self.count(&Step { turn, ..step }, share, held.is_some() || first.is_some() && robot_moved);
+        self.count(&Step { turn, ..step }, share, held.is_some() || is_stopped);
     }
 
     /// How far the robot turns, radians, where it touches something by that; `None` where it turns freely.
