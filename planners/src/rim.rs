@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::geometry::{Point, Rect, Segment, polygon};
+use crate::geometry::{Point, Segment, polygon};
 
 mod disc;
 mod turning;
@@ -94,12 +94,7 @@ impl Rim {
             + self.radius_m
     }
 
-    /// The least rectangle about it, with its middle at the origin.
-    pub fn bounds(&self) -> Rect {
-        Rect::around(self.corners().iter().copied()).grown(self.radius_m)
-    }
-
-    /// A point of the rim in a direction (of length 1) from the middle, metres away.
+    /// Metres from the middle to the rim in a direction (of length 1).
     pub fn reach_m(&self, towards: Point) -> f64 {
         let hit = |side: Segment| side.hit(Point::default(), towards).map(|(range, _)| range);
         polygon::sides(self.corners()).filter_map(hit).fold(0.0, f64::max) + self.radius_m

@@ -66,6 +66,16 @@ impl TestSite {
         Self::copy_of(&repository().join("kb/sites").join(name))
     }
 
+    /// The clinic with a robot that is longer than wide, and so all the time.
+    pub fn barrow() -> Self {
+        let of = "robot = \"barrow\"\n";
+        let sizes = "height = 0.7\nwidth = 0.4\nlength = 0.9\nhardness = 1.0\nspeed = 0.8\n";
+        let turn = "from_state = \"GO\"\nto_state = \"GO\"\nhardness = 0.2\n";
+        let robots =
+            format!("[[robots]]\n{of}state = \"GO\"\naction = \"GO\"\n{sizes}[[changes]]\n{of}{turn}");
+        Self::example("clinic").with("robots.toml", &robots).built()
+    }
+
     /// A copy of one of the sites in `tests/tests/hostile/sites`.
     pub fn hostile(name: &str) -> Self {
         Self::copy_of(&repository().join("tests/tests/hostile/sites").join(name))

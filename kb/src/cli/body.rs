@@ -86,9 +86,12 @@ pub fn body(args: &BodyArgs) -> Result<()> {
     }
     let ground = Ground::of(&live.fork(), args.robot.as_deref())?;
     let at = point(&live, &args.start)?;
-    let shapes = ground.outlines();
-    let shape = shape(args, &shapes, &ground.fitting(&live.fork(), at)?)?;
-    let (on, outfit) = ground.stage(shape);
+    let mut fitting: Vec<usize> =
+        ground.fitting(&live.fork(), at)?.iter().map(|stance| ground.buildings[*stance].shape).collect();
+    fitting.dedup();
+    let shapes = ground.outlines.clone();
+    let shape = shape(args, &shapes, &fitting)?;
+    let (on, outfit) = ground.stage(ground.stance_at(shape, heading));
     let senses = (outfit.robot.sonar_range_m, outfit.robot.has_skirt);
     let made = || mission(at).body(&on, &outfit).map_err(Error::of(Code::SimulateImpossible));
     Robot { args, shapes, shape, senses, made: &made }.answer()

@@ -7,7 +7,6 @@ use adit_db::route::Waypoint;
 use adit_planners::floor_plan::{Disc, FloorPlan, Network};
 use adit_planners::geometry::{Point, Rect, Segment, polygon};
 use adit_planners::navigation::{Building, Drivable, Outfit, Stretch};
-use adit_planners::rim::Rim;
 use adit_planners::routes::RoomIndex;
 use adit_planners::simulator::{Shape, Shapes};
 
@@ -29,6 +28,8 @@ pub struct Ground {
     /// The names of the robot's shapes, by number: those of its states in which it can move.
     pub states: Vec<String>,
     pub shapes: Shapes,
+    /// The shapes, as a body tells them.
+    pub outlines: Vec<Outline>,
     /// The building as it is for the robot in each stance: in a shape, at each of its facings where it is longer than wide.
     pub buildings: Vec<Building>,
     /// What stands, whatever the robot's height.
@@ -90,6 +91,7 @@ impl Ground {
             doorways: state.graph().building.doorways.iter().map(Spaces::segment).collect(),
             robot,
             states: Vec::new(),
+            outlines: Vec::new(),
             buildings: Vec::new(),
             plan,
             bounds: state.world.bounds,
@@ -127,7 +129,8 @@ impl Ground {
     fn add(&mut self, state: &State, name: String, speed: Option<f64>) {
         let of = (self.robot.clone(), name);
         let Some(size) = state.gauge.size(&of) else { return };
-        let rim = Rim::of(size.width, size.length);
+        let outline = Outline { name: of.1.clone(), radius_m: size.width / 2.0, length_m: size.length };
+        let rim = outline.rim();
         let low = state.world.bridges.iter().filter(|bridge| size.height >= bridge.height);
         let overhead: Vec<Rect> = low.map(|bridge| bridge.rect).collect();
         let sides: Vec<Segment> = overhead.iter().flat_map(polygon::sides_of_rect).collect();
@@ -143,6 +146,7 @@ impl Ground {
         }
         self.shapes.all.push(Shape { rim, greatest_speed_m_s: speed.unwrap_or(SPEED_M_S), overhead });
         self.states.push(of.1);
+        self.outlines.push(outline);
     }
 
     /// The number of the shape of a state.
@@ -186,14 +190,8 @@ impl Ground {
 
     /// Its shapes, as a body must have them that is driven here.
     pub fn used(&self) -> Vec<Used> {
-        let outlines = self.outlines().into_iter();
-        outlines.map(|outline| Used { rim: outline.rim(), name: Some(outline.name) }).collect()
-    }
-
-    /// Its shapes, as a body tells them.
-    pub fn outlines(&self) -> Vec<Outline> {
-        let shapes = self.states.iter().cloned().zip(&self.shapes.all);
-        shapes.map(|(name, shape)| Outline::of(name, &shape.rim)).collect()
+        let used = |outline: &Outline| Used { rim: outline.rim(), name: Some(outline.name.clone()) };
+        self.outlines.iter().map(used).collect()
     }
 
     /// Where a simulated robot that begins in a stance drives, and how it is set.

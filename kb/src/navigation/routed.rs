@@ -21,7 +21,7 @@ use crate::answer::Answer;
 use crate::edit::{Edit, Errand, Lay, Thing};
 use crate::error::{Code, Error, Result};
 use crate::live::Live;
-use crate::navigation::body::{Outline, Remote};
+use crate::navigation::body::Remote;
 use crate::site::clock::stored;
 use crate::state::State;
 
@@ -342,9 +342,9 @@ fn things(all: impl IntoIterator<Item = Vec<Point>>, clear: &[Point]) -> Vec<Vec
 
 /// What makes a robot larger all around in each of its states.
 fn wider(ground: &Ground, by_m: f64) -> impl Iterator<Item = Edit> + '_ {
-    ground.outlines().into_iter().flat_map(move |Outline { name, radius_m, length_m }| {
-        let key = format!("{}/{name}", ground.robot);
-        let sizes = [("width", Some(2.0 * radius_m)), ("length", length_m)];
+    ground.outlines.iter().flat_map(move |outline| {
+        let key = format!("{}/{}", ground.robot, outline.name);
+        let sizes = [("width", Some(2.0 * outline.radius_m)), ("length", outline.length_m)];
         sizes.into_iter().filter_map(move |(column, metres)| {
             let value = format!("{:?}", metres? + by_m);
             Some(Edit::Set("robots".to_owned(), key.clone(), column.to_owned(), value))

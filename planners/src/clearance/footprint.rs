@@ -1,6 +1,6 @@
 //! What has to be free about the point where a robot is, and whether it is: judged in closed form, without cells.
 
-use geo::{Contains, ConvexHull, Coord, Line, MultiPoint};
+use geo::{Contains, Coord, Line};
 
 use super::{Outline, Solid, Solids};
 use crate::geometry::tolerance::ROUNDING_M;
@@ -67,7 +67,7 @@ impl Solids {
                 near.all(|solid| solid.distance(&line) >= radius - ROUNDING_M)
             }
             Shape::Body(corners) => {
-                let swept = hull(corners.iter().flat_map(|&corner| [a + corner, b + corner]));
+                let swept = polygon::hull(corners.iter().flat_map(|&corner| [a + corner, b + corner]));
                 near.all(|solid| solid.is_clear_of(&swept))
             }
         }
@@ -88,13 +88,6 @@ impl Solid {
             }
         }
     }
-}
-
-/// The corners of the convex hull, counterclockwise.
-pub(super) fn hull(points: impl IntoIterator<Item = Point>) -> Vec<Point> {
-    let points: MultiPoint<f64> = points.into_iter().map(|p| geo::Point::new(p.x, p.y)).collect();
-    let ring = points.convex_hull().into_inner().0;
-    ring.0.into_iter().skip(1).map(Point::from).collect()
 }
 
 /// Whether a line along a side of one of two convex outlines parts them.

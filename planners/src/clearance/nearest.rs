@@ -1,9 +1,9 @@
 //! The nearest point at which a body fits.
 //!
-//! Where the body touches a side or a corner of something solid, its middle lies on a rim: a segment, or a circle. The
+//! Where the body touches a side or a corner of something solid, its middle lies on a boundary: a segment, or a circle. The
 //! nearest point of free space is the foot of the point on one of these, or where two of them cross.
 
-use super::footprint::{Footprint, Shape, hull};
+use super::footprint::{Footprint, Shape};
 use super::{Solid, Solids};
 use crate::geometry::{Point, Rect, Segment, polygon};
 
@@ -11,7 +11,7 @@ use crate::geometry::{Point, Rect, Segment, polygon};
 const FIRST_M: f64 = 0.05;
 const STEP: f64 = 2.0;
 
-enum Rim {
+enum Boundary {
     Straight(Segment),
     Round { centre: Point, radius: f64 },
 }
@@ -52,12 +52,13 @@ impl Solids {
         let about = Rect::new(at.x - extent.x1, at.y - extent.y1, at.x - extent.x0, at.y - extent.y0);
         let b = self.bounds;
         let inner = Rect::new(b.x0 - extent.x0, b.y0 - extent.y0, b.x1 - extent.x1, b.y1 - extent.y1);
-        let mut rims: Vec<Rim> = polygon::sides(&inner.corners()).map(Rim::Straight).collect();
-        rims.extend(self.within(about.grown(reach), of.height).flat_map(|solid| solid.rims(of)));
-        rims.retain(|rim| rim.foot(at).distance(at) < reach);
-        let mut points: Vec<Point> = rims.iter().map(|rim| rim.foot(at)).collect();
-        for (index, one) in rims.iter().enumerate() {
-            points.extend(rims[index + 1..].iter().flat_map(|two| one.crossings(two)));
+        let mut boundaries: Vec<Boundary> =
+            polygon::sides(&inner.corners()).map(Boundary::Straight).collect();
+        boundaries.extend(self.within(about.grown(reach), of.height).flat_map(|solid| solid.boundaries(of)));
+        boundaries.retain(|boundary| boundary.foot(at).distance(at) < reach);
+        let mut points: Vec<Point> = boundaries.iter().map(|boundary| boundary.foot(at)).collect();
+        for (index, one) in boundaries.iter().enumerate() {
+            points.extend(boundaries[index + 1..].iter().flat_map(|two| one.crossings(two)));
         }
         points.retain(|point| point.distance(at) < reach);
         points
@@ -66,19 +67,20 @@ impl Solids {
 
 impl Solid {
     /// Where the middle of a body is that touches it, and some lines inside of that.
-    fn rims(&self, of: &Footprint) -> Vec<Rim> {
-        let of_side = |side: Segment| -> Vec<Rim> {
+    fn boundaries(&self, of: &Footprint) -> Vec<Boundary> {
+        let of_side = |side: Segment| -> Vec<Boundary> {
             match &of.outline {
                 Shape::Disc(radius) => {
                     let along = side.direction();
                     let aside = along.perpendicular() * *radius;
-                    let moved = |by: Point| Rim::Straight(Segment::new(side.a + by, side.b + by));
-                    let corner = Rim::Round { centre: side.a, radius: *radius };
+                    let moved = |by: Point| Boundary::Straight(Segment::new(side.a + by, side.b + by));
+                    let corner = Boundary::Round { centre: side.a, radius: *radius };
                     vec![moved(aside), moved(-aside), corner]
                 }
                 Shape::Body(corners) => {
-                    let grown = hull(corners.iter().flat_map(|&corner| [side.a - corner, side.b - corner]));
-                    polygon::sides(&grown).map(Rim::Straight).collect()
+                    let grown =
+                        polygon::hull(corners.iter().flat_map(|&corner| [side.a - corner, side.b - corner]));
+                    polygon::sides(&grown).map(Boundary::Straight).collect()
                 }
             }
         };
@@ -86,7 +88,7 @@ impl Solid {
     }
 }
 
-impl Rim {
+impl Boundary {
     /// Its point that is nearest to `p`.
     fn foot(&self, p: Point) -> Point {
         match self {

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
 use adit_planners::floor_plan::{Disc, Network};
-use adit_planners::geometry::{Point, Segment};
+use adit_planners::geometry::{Point, Rect, Segment, polygon};
 use adit_planners::navigation::{
     Building, Drivable, Ending, Entry, Met, Mission, Outcome, Outfit, Router, Stretch,
 };
@@ -20,14 +20,8 @@ const STEP: f64 = 22.5;
 /// A hall of 9 x 6 m, parted by a wall at x = 4 with a gap of 0.4 m about y = 1.5, through which the body comes lengthwise.
 fn walls() -> Vec<Segment> {
     let wall = |x0: f64, y0: f64, x1: f64, y1: f64| Segment::new(Point::new(x0, y0), Point::new(x1, y1));
-    vec![
-        wall(0.0, 0.0, 9.0, 0.0),
-        wall(9.0, 0.0, 9.0, 6.0),
-        wall(9.0, 6.0, 0.0, 6.0),
-        wall(0.0, 6.0, 0.0, 0.0),
-        wall(4.0, 0.0, 4.0, 1.3),
-        wall(4.0, 1.7, 4.0, 6.0),
-    ]
+    let hall = polygon::sides_of_rect(&Rect::new(0.0, 0.0, 9.0, 6.0));
+    hall.into_iter().chain([wall(4.0, 0.0, 4.0, 1.3), wall(4.0, 1.7, 4.0, 6.0)]).collect()
 }
 
 /// Says the same way whenever it is asked, from the stretch on that the robot's stance is of.

@@ -1,7 +1,6 @@
 //! The messages of the protocol, one a line. Units are in the names: metres, radians (counter-clockwise above 0), seconds.
 
 use adit_planners::body::{Contact, Reading};
-use adit_planners::geometry::Point;
 use adit_planners::pose::Pose;
 use adit_planners::rim::Rim;
 use serde::{Deserialize, Serialize};
@@ -79,11 +78,6 @@ pub struct Outline {
 }
 
 impl Outline {
-    pub fn of(name: String, rim: &Rim) -> Self {
-        let [ahead, aside] = [Point::new(1.0, 0.0), Point::new(0.0, 1.0)].map(|side| rim.extent_m(side));
-        Self { name, radius_m: aside, length_m: (!rim.is_disc()).then_some(2.0 * ahead) }
-    }
-
     pub fn rim(&self) -> Rim {
         Rim::of(2.0 * self.radius_m, self.length_m)
     }

@@ -10,6 +10,7 @@ use super::limits::PROTOCOL;
 use super::link::Link;
 use super::message::{Answer, Order, Senses};
 use super::terms::{Terms, names};
+use crate::words::number::number;
 
 /// A radius may be larger than the site has it by so much, metres: both are rounded.
 const ROUNDED_M: f64 = 1e-3;
@@ -36,8 +37,8 @@ fn does_fit(own: &Rim, used: &Rim) -> bool {
 
 fn size(rim: &Rim) -> String {
     match halves(rim) {
-        [radius, _] if rim.is_disc() => format!("{radius} m"),
-        [length, width] => format!("{} x {} m", 2.0 * length, 2.0 * width),
+        [radius, _] if rim.is_disc() => format!("{} m", number(radius)),
+        [length, width] => format!("{} x {} m", number(2.0 * length), number(2.0 * width)),
     }
 }
 

@@ -5,7 +5,7 @@ use std::process::Command;
 use adit_tests::{Ran, TestSite, adit, repository};
 use serde_json::Value;
 
-use super::{floor, in_python, simulated};
+use super::{conform, floor, in_python, simulated};
 
 /// What only who knows the truth can say.
 const OF_JUDGES: [&str; 9] = [
@@ -19,6 +19,49 @@ const OF_JUDGES: [&str; 9] = [
     "seed",
     "least_cost",
 ];
+
+#[test]
+fn one_that_is_longer_than_wide_is_driven_over_the_wire_to_the_bit_too() {
+    let (site, ends) = (TestSite::barrow(), ["dock", "ward 12"]);
+    let facing = "SELECT facing FROM waypoints WHERE start = 'dock' AND goal = 'ward 12' ORDER BY waypoint";
+    let heading = ["--heading", &site.sqlite3(facing)[0]];
+    let drawn = [&ends[..], &heading, &["--seed", "3", "--keep", "--json"]].concat();
+    let within = site.adit("simulate", &drawn).expect_status(0).json()[0].clone();
+    assert_eq!(within["ending"], "arrived");
+    let body = simulated(&site, ends[0], &format!("--seed 3 {}", heading.join(" ")));
+    let driven = drive(&site, ends, &body, &[&heading[..], &["--keep"]].concat());
+    for key in ["ending", "seconds", "changes", "replans", "detours"] {
+        assert_eq!(driven[key], within[key], "{key}: {driven}");
+    }
+    let poses = |mission: u8| {
+        site.sqlite3(&format!("SELECT x, y, heading FROM journal WHERE mission = {mission} ORDER BY entry"))
+    };
+    assert_eq!(poses(1), poses(2));
+}
+
+#[test]
+fn a_body_begins_at_any_facing_at_which_it_fits_and_is_told_where_it_does_not() {
+    let site = TestSite::barrow();
+    // 0.3 m off the edge of the map, which is a wall, it fits along that alone
+    let start = "0.3,8.2";
+    for heading in ["90", "-90"] {
+        let ran = conform(&simulated(&site, start, &format!("--heading {heading}")), &["--json"]);
+        assert_eq!(ran.json()["checks"][1]["held"], true, "{heading}: {}", ran.stdout);
+    }
+    site.adit("body", &[start, "--heading", "0"])
+        .expect_status(2)
+        .complains(&["the robot begins at 0.3, 8.2, where wall", "would be within it"]);
+    // and one that is longer than the site has it is not driven
+    site.adit("tune", &["robots", "barrow/GO", "length", "0.8"]).expect_status(0);
+    let long = TestSite::barrow();
+    let body = simulated(&long, "dock", "");
+    let ran = site.adit("drive", &["dock", "ward 12", "--body", &body]);
+    assert!(
+        ran.stdout.contains("the body is 0.9 x 0.4 m in the shape `GO`, and ways are found for 0.8 x 0.4 m"),
+        "{}",
+        ran.stdout
+    );
+}
 
 fn drive(site: &TestSite, ends: [&str; 2], body: &str, more: &[&str]) -> Value {
     let args = [&ends[..], &["--body", body, "--json"], more].concat();

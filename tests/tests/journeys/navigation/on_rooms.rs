@@ -39,14 +39,7 @@ fn from_the_dock_to_ward_12_it_goes_on_its_knees_and_sideways_as_the_route_says(
 
 #[test]
 fn who_is_longer_than_wide_goes_on_at_its_facings_and_touches_nothing() {
-    let site = TestSite::example("clinic");
-    let barrow = "robot = \"barrow\"\nstate = \"GO\"\n";
-    let robots = format!(
-        "[[robots]]\n{barrow}action = \"GO\"\nheight = 0.7\nwidth = 0.4\nlength = 0.9\nhardness = 1.0\nspeed = 0.8\n\
-         [[changes]]\nrobot = \"barrow\"\nfrom_state = \"GO\"\nto_state = \"GO\"\nhardness = 0.2\n"
-    );
-    site.write("robots.toml", robots);
-    let site = site.built();
+    let site = TestSite::barrow();
     let film = site.path().join("film.svg");
     let row = rows(&site, &["dock", "ward 12", "--keep", "--film", film.to_str().unwrap()])[0].clone();
     assert_eq!((&row["ending"], &row["right"]), (&"arrived".into(), &true.into()), "{row}");
