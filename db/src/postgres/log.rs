@@ -85,11 +85,12 @@ pub(super) fn publish(link: &mut Link, template: &Template, draft: &Draft<'_>) -
     let text = draft.changes.text();
     let mut tries = 0;
     loop {
-        let mut collided = false;
+        let (mut collided, mut locked) = (false, false);
         let kept = link.once(async |connection| {
             let kept = keep(connection, template, draft, &text).await;
             if let Err(error) = &kept {
                 collided = matches!(error, Error::Sql(error) if is_collision(error));
+                locked = matches!(error, Error::Sql(error) if is_locked(error));
                 sqlx::raw_sql("ROLLBACK").execute(&mut *connection).await.ok();
             }
             kept
@@ -101,6 +102,7 @@ pub(super) fn publish(link: &mut Link, template: &Template, draft: &Draft<'_>) -
             Err(_) if collided && tries < 20 => {
                 std::thread::sleep(Duration::from_millis(tries * 3));
             }
+            Err(_) if locked => return Err(Failure::Held(draft.site.to_owned()).into()),
             Err(Error::Postgres(Failure::Unreachable { place, reason })) => {
                 return match find_out(link, draft) {
                     Some(true) => Ok(()),

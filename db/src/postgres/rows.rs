@@ -8,7 +8,7 @@ use sqlx::{Arguments, AssertSqlSafe, PgConnection, Row, SqliteConnection};
 
 use super::capture;
 use super::changes::{self, Changes, File, Object, Rows};
-use super::link::Link;
+use super::link::{Link, is_locked};
 use super::place::Place;
 use super::schema;
 use super::tables::{Kind, Table, Template};
@@ -81,7 +81,11 @@ pub(crate) fn copy_in(
     let put = link.again(async |connection| {
         sqlx::raw_sql("BEGIN").execute(&mut *connection).await?;
         let sql = "SELECT entry FROM adit.sites WHERE site = $1 FOR UPDATE";
-        let there: Option<i64> = sqlx::query_scalar(sql).bind(site).fetch_optional(&mut *connection).await?;
+        let there: Option<i64> =
+            match sqlx::query_scalar(sql).bind(site).fetch_optional(&mut *connection).await {
+                Err(error) if is_locked(&error) => return Err(Failure::Held(site.to_owned()).into()),
+                there => there?,
+            };
         if there.is_some() && !replace {
             sqlx::raw_sql("ROLLBACK").execute(&mut *connection).await?;
             return Ok(false);

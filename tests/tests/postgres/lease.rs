@@ -7,7 +7,7 @@ use adit_db::{Error, Store};
 use adit_tests::cluster::Cluster;
 use tempfile::TempDir;
 
-use super::with_site;
+use super::{copy, soon, with_site};
 
 const LASTS: Duration = Duration::from_secs(1);
 
@@ -151,4 +151,26 @@ fn what_the_database_refuses_is_not_in_the_copy_either() {
     assert!(copy.store.lead().unwrap());
     copy.write("z").unwrap();
     assert_eq!((copy.value().as_deref(), kept(&cluster)), (Some("z"), vec!["z".to_owned()]));
+}
+
+/// They were told that PostgreSQL had refused a statement.
+#[test]
+fn who_waits_too_long_for_a_lock_of_anothers_is_told_that_another_edits() {
+    let (cluster, site) = with_site("paper");
+    let mut holder = Copy::lasting(&cluster, "holder", NOT_KEPT_UP);
+    assert!(holder.store.lead().unwrap());
+    std::thread::scope(|scope| {
+        let lock = "SELECT 1 FROM adit.sites WHERE site = 'paper' FOR UPDATE; SELECT pg_sleep(60)";
+        scope.spawn(|| cluster.ask_as("adit", lock).unwrap_err());
+        let sleeps = "SELECT pid FROM pg_stat_activity WHERE wait_event = 'PgSleep'";
+        soon(Duration::from_secs(10), || !cluster.ask(sleeps).is_empty());
+        let late = holder.write("late");
+        assert!(matches!(late, Err(Error::Postgres(Failure::Held(_)))), "{late:?}");
+        let folder = site.path().display().to_string();
+        copy(&[&folder, &cluster.url("paper"), "--replace"]).expect_status(2).complains(&["postgres/held"]);
+        cluster.ask(&format!("SELECT pg_cancel_backend(pid) FROM ({sleeps}) AS of"));
+    });
+    assert!(kept(&cluster).is_empty());
+    holder.write("now").unwrap();
+    assert_eq!(kept(&cluster), ["now"]);
 }
