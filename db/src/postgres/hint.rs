@@ -13,6 +13,12 @@ const WAIT: Duration = Duration::from_millis(250);
 /// How long it is waited before it is tried again.
 const REST: Duration = Duration::from_secs(2);
 
+/// Where hints about a site are given: of a thousand sites in one database each service is woken for its own alone. A name has room
+/// for 63 bytes, and a site's may be longer: what has the same sum is told apart by what is said.
+pub(super) fn channel(site: &str) -> String {
+    format!("adit_{:08x}", crc32fast::hash(site.as_bytes()))
+}
+
 /// Calls `heard` at each hint about the site, until `wanted` is no longer so. Where there are no hints nothing is called.
 pub fn listen(place: &Place, site: &str, wanted: impl Fn() -> bool, heard: impl Fn()) {
     let Ok(runtime) = Builder::new_current_thread().enable_all().build() else { return };
@@ -21,7 +27,7 @@ pub fn listen(place: &Place, site: &str, wanted: impl Fn() -> bool, heard: impl 
             let options = PgPoolOptions::new().max_connections(1).acquire_timeout(CONNECTING);
             let pool = options.connect_lazy_with(place.options.clone());
             if let Ok(mut listener) = PgListener::connect_with(&pool).await
-                && listener.listen("adit").await.is_ok()
+                && listener.listen(&channel(site)).await.is_ok()
             {
                 heard();
                 while wanted() {

@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 use sqlx::PgConnection;
 
 use super::changes::Changes;
+use super::hint::channel;
 use super::link::{Link, is_collision, is_locked};
 use super::rows;
 use super::tables::Template;
@@ -195,7 +196,7 @@ pub(super) fn after(link: &mut Link, site: &str, entry: i64) -> Result<Vec<Writt
 /// Tells services on the site that there is an entry: a hint, without which they look once in a while.
 pub(super) fn hint(link: &mut Link, site: &str) -> Result<()> {
     link.once(async |connection| {
-        sqlx::query("SELECT pg_notify('adit', $1)").bind(site).execute(connection).await?;
+        sqlx::query("SELECT pg_notify($1, $2)").bind(channel(site)).bind(site).execute(connection).await?;
         Ok(())
     })
 }
