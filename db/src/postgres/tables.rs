@@ -2,6 +2,7 @@
 //! in PostgreSQL, too.
 
 use std::collections::BTreeMap;
+use std::sync::OnceLock;
 
 use sqlx::{Connection, Row, SqliteConnection};
 
@@ -99,8 +100,19 @@ pub(super) struct Template {
 }
 
 impl Template {
-    /// Of the newest version; `worlds`: of a database that keeps worlds.
+    /// Of the newest version; `worlds`: of a database that keeps worlds. To make one goes through all versions that there were: it
+    /// is done once.
     pub(super) async fn new(worlds: bool) -> Result<Self> {
+        static KNOWN: [OnceLock<Template>; 2] = [const { OnceLock::new() }; 2];
+        let known = &KNOWN[usize::from(worlds)];
+        if let Some(known) = known.get() {
+            return Ok(known.clone());
+        }
+        let made = Self::make(worlds).await?;
+        Ok(known.get_or_init(|| made).clone())
+    }
+
+    async fn make(worlds: bool) -> Result<Self> {
         let mut empty = SqliteConnection::connect("sqlite::memory:").await?;
         let nowhere = std::path::Path::new("");
         migrate::migrate(&mut empty, nowhere, STEPS).await?;
