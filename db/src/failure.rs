@@ -75,6 +75,16 @@ pub enum Failure {
         "the connection to {0} broke while an edit was kept: whether it was made shows when the database is back"
     )]
     UnknownOutcome(String),
+    /// An edit was kept, and the copy of the service that made it did not take it.
+    #[error(
+        "the edit is made and kept in the database, but this service cannot take it into its copy of the site `{site}` yet: {reason}"
+    )]
+    KeptThere {
+        /// The site.
+        site: String,
+        /// Why.
+        reason: String,
+    },
     /// The log does not reach back to where this copy is.
     #[error("this copy of the site `{0}` is too old to follow its log: it is made anew")]
     TooFarBehind(String),

@@ -134,7 +134,8 @@ impl Store {
             && let Some(pending) = tx.run(async |connection| replica.pending(connection).await)?
         {
             replica.publish(&pending)?;
-            tx.commit()?;
+            // it is made, whatever becomes of the copy: that takes it from the log as it takes those of others
+            tx.commit().map_err(|error| replica.kept_there(&error))?;
             replica.accept(pending);
         } else {
             tx.commit()?;

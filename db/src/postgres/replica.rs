@@ -240,6 +240,11 @@ impl Replica {
         Ok(())
     }
 
+    /// What is said where what was published could not be committed.
+    pub(crate) fn kept_there(&self, error: &Error) -> Error {
+        Failure::KeptThere { site: self.site.clone(), reason: error.to_string() }.into()
+    }
+
     /// The copy has committed what was published.
     pub(crate) fn accept(&mut self, pending: Pending) {
         self.entry += 1;

@@ -213,6 +213,8 @@ codes! {
     PostgresFiles = "postgres/files", BAD_REQUEST;
     /// Another service edits the site; try again.
     PostgresHeld = "postgres/held", SERVICE_UNAVAILABLE;
+    /// The edit is made and kept in PostgreSQL, and this service does not show it yet: do not make it again.
+    PostgresKept = "postgres/kept", SERVICE_UNAVAILABLE;
     /// PostgreSQL does not let this user in: password, user or database are wrong.
     PostgresLetIn = "postgres/let-in", INTERNAL_SERVER_ERROR;
     /// This user of PostgreSQL has no right to do that.
@@ -571,6 +573,7 @@ impl From<&Failure> for Code {
             Failure::Version { .. } => Self::PostgresVersion,
             Failure::Held(_) => Self::PostgresHeld,
             Failure::Fenced(_) => Self::PostgresFenced,
+            Failure::KeptThere { .. } => Self::PostgresKept,
             Failure::UnknownOutcome(_) => Self::PostgresUnknownOutcome,
             Failure::TooFarBehind(_) | Failure::Copy { .. } => Self::PostgresCopy,
             Failure::Sql(_) => Self::PostgresSql,
