@@ -1,7 +1,7 @@
 //! A cluster of PostgreSQL of a test's own: in a temporary folder, on a Unix socket and on loopback, as another user than root.
 
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::{Child, Command, Output, Stdio};
 use std::time::Duration;
 
 use tempfile::TempDir;
@@ -14,7 +14,15 @@ pub struct Cluster {
     folder: TempDir,
     port: u16,
     programs: PathBuf,
+    /// Settings besides the usual ones.
+    settings: &'static str,
+    /// Ends it with this process, where nothing else does.
+    #[allow(dead_code, reason = "it is held, and not looked at")]
+    watcher: Option<Child>,
 }
+
+/// Of what a crash would take.
+const UNSAFE: &str = "-c fsync=off -c full_page_writes=off -c autovacuum_naptime=5s";
 
 /// Where PostgreSQL's programs are, the newest first.
 fn programs() -> PathBuf {
@@ -35,12 +43,29 @@ fn is_root() -> bool {
 impl Cluster {
     /// Makes a cluster and starts it.
     pub fn start() -> Self {
+        Self::start_with("")
+    }
+
+    /// Makes a cluster that ends with this process, however that ends, and keeps nothing of what it holds safe from a crash.
+    pub fn start_for_all() -> Self {
+        let mut cluster = Self::start_with(UNSAFE);
+        // the other end of its input is closed when this process is gone
+        let script = "trap '' HUP INT TERM; read -r _; kill -QUIT $(head -n 1 \"$0/data/postmaster.pid\"); \
+            while [ -e \"$0/data/postmaster.pid\" ]; do sleep 0.05; done; rm -rf \"$0\"";
+        let watcher =
+            Command::new("sh").args(["-c", script]).arg(cluster.path()).stdin(Stdio::piped()).spawn();
+        cluster.watcher = Some(watcher.expect("sh is there"));
+        cluster
+    }
+
+    /// Makes a cluster with settings besides the usual ones: `-c NAME=VALUE`.
+    pub fn start_with(settings: &'static str) -> Self {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let port = std::net::TcpListener::bind("127.0.0.1:0")
             .and_then(|free| free.local_addr())
             .expect("a port")
             .port();
-        let cluster = Self { folder, port, programs: programs() };
+        let cluster = Self { folder, port, programs: programs(), settings, watcher: None };
         let password = cluster.path().join("password");
         std::fs::write(&password, PASSWORD).expect("a file");
         if is_root() {
@@ -92,9 +117,10 @@ impl Cluster {
         let (data, log) = (self.path().join("data"), self.path().join("log"));
         let (data, log) = (data.display().to_string(), log.display().to_string());
         let options = format!(
-            "-k {} -p {} -c listen_addresses=127.0.0.1 -c max_connections=200 -c shared_buffers=64MB",
+            "-k {} -p {} -c listen_addresses=127.0.0.1 -c max_connections=200 -c shared_buffers=64MB {}",
             self.path().display(),
-            self.port
+            self.port,
+            self.settings
         );
         for tried in 0.. {
             // its output goes to the log, and not into a pipe that it would hold open
@@ -124,6 +150,11 @@ impl Cluster {
         while Path::new("/proc").join(&pid).exists() {
             std::thread::sleep(Duration::from_millis(10));
         }
+    }
+
+    /// What it has said so far.
+    pub fn log(&self) -> String {
+        std::fs::read_to_string(self.path().join("log")).expect("it was started")
     }
 
     /// The URL of a site, by the socket.

@@ -2,6 +2,7 @@
 
 pub mod browser;
 pub mod cluster;
+pub mod database;
 pub mod floor;
 pub mod fuzz;
 pub mod lock;
@@ -17,6 +18,8 @@ use std::time::{Duration, Instant};
 
 use serde_json::Value;
 use tempfile::TempDir;
+
+use database::Elsewhere;
 
 /// The program `adit` of this build; built first where it is missing or old.
 pub fn adit() -> &'static Path {
@@ -53,12 +56,13 @@ pub fn shared(path: &str) -> Option<PathBuf> {
 /// A site in a folder of its own that goes away with it.
 pub struct TestSite {
     folder: TempDir,
+    pub(crate) elsewhere: Elsewhere,
 }
 
 impl TestSite {
     /// An empty folder.
     pub fn empty() -> Self {
-        Self { folder: tempfile::tempdir().expect("a temporary folder") }
+        Self { folder: tempfile::tempdir().expect("a temporary folder"), elsewhere: Elsewhere::default() }
     }
 
     /// A copy of one of the example sites in `kb/sites`.
@@ -158,8 +162,9 @@ impl TestSite {
 
     /// Runs `adit VERB SITE ARGS…`.
     pub fn adit(&self, verb: &str, args: &[&str]) -> Ran {
+        let elsewhere = self.elsewhere.for_command(verb);
         let mut command = Command::new(adit());
-        command.arg(verb).arg(self.path()).args(args);
+        command.arg(verb).arg(elsewhere.as_ref().map_or(self.path(), TempDir::path)).args(args);
         Ran::new(&command.output().expect("adit runs"))
     }
 
@@ -172,8 +177,9 @@ impl TestSite {
 
     /// The rows that the plain `sqlite3` shell prints, read-only, columns joined by `|`.
     pub fn sqlite3(&self, query: &str) -> Vec<String> {
-        let ran =
-            Command::new("sqlite3").arg("-readonly").arg(self.path().join("site.db")).arg(query).output();
+        let elsewhere = self.elsewhere.brought_back();
+        let folder = elsewhere.as_ref().map_or(self.path(), TempDir::path);
+        let ran = Command::new("sqlite3").arg("-readonly").arg(folder.join("site.db")).arg(query).output();
         Ran::new(&ran.expect("the sqlite3 shell is installed (tests/run installs it)"))
             .expect_status(0)
             .stdout

@@ -1,18 +1,33 @@
-//! Another program that holds a site's database.
+//! Another program that holds a site's database, or another service that has the right to write.
 
 use std::io::{BufRead, BufReader, Write};
 use std::process::{Child, Command, Stdio};
 
 use crate::TestSite;
+use crate::database::cluster;
 
 /// Another program that writes to the site's database and takes its time: whoever writes, or tries what an edit would do,
 /// waits for it.
-pub struct Lock(Child);
+pub enum Lock {
+    Shell(Child),
+    Lease(String),
+}
 
 impl Lock {
     /// Begins to write.
     #[must_use]
     pub fn hold(site: &TestSite) -> Self {
+        if let Some(name) = site.elsewhere.name() {
+            let free = "owner IS NULL OR ends < now()";
+            let taken = format!(
+                "UPDATE adit.sites SET owner = 'another', fence = fence + 1, ends = now() + interval '1 hour'
+                 WHERE site = '{name}' AND ({free}) RETURNING owner"
+            );
+            crate::within("nobody has the right to write", || {
+                (cluster().ask(&taken) == ["another"]).then_some(())
+            });
+            return Self::Lease(name.to_owned());
+        }
         let mut shell = Command::new("sqlite3")
             .arg(site.path().join("site.db"))
             .stdin(Stdio::piped())
@@ -24,13 +39,21 @@ impl Lock {
             .expect("it listens");
         BufReader::new(shell.stdout.as_mut().expect("piped")).read_line(&mut said).expect("it answers");
         assert_eq!(said, "held\n");
-        Self(shell)
+        Self::Shell(shell)
     }
 }
 
 impl Drop for Lock {
     fn drop(&mut self) {
-        let _ = self.0.kill();
-        let _ = self.0.wait();
+        match self {
+            Self::Shell(shell) => {
+                let _ = shell.kill();
+                let _ = shell.wait();
+            }
+            Self::Lease(name) => {
+                let given_up = "UPDATE adit.sites SET owner = NULL, ends = NULL WHERE owner = 'another'";
+                cluster().ask(&format!("{given_up} AND site = '{name}'"));
+            }
+        }
     }
 }

@@ -45,6 +45,7 @@ impl Service {
             .arg("serve")
             .arg(site.path())
             .args(arguments)
+            .args(on_database(site))
             .stdout(Stdio::piped())
             .stderr(log.reopen().expect("a temporary file"))
             .spawn()
@@ -70,6 +71,7 @@ impl Service {
             .arg("serve")
             .arg(site.path())
             .args(arguments)
+            .args(on_database(site))
             .stdout(Stdio::piped())
             .stderr(Stdio::piped())
             .spawn()
@@ -184,6 +186,12 @@ impl Drop for Service {
         let _ = self.child.kill();
         let _ = self.child.wait();
     }
+}
+
+/// The arguments by which a site is served that is in PostgreSQL.
+fn on_database(site: &TestSite) -> Vec<String> {
+    let url = site.elsewhere.served(site.path());
+    url.map_or(Vec::new(), |url| vec!["--database".to_owned(), url])
 }
 
 /// A stream of live events.

@@ -7,7 +7,7 @@ use adit::Code;
 use adit_tests::{Ran, adit, repository};
 use serde_json::Value;
 
-use crate::served;
+use super::served;
 
 fn texts(value: &Value) -> bool {
     value.as_str().is_some_and(|text| !text.trim().is_empty())

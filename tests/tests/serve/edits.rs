@@ -4,7 +4,7 @@ use adit_tests::TestSite;
 use adit_tests::service::Service;
 use serde_json::json;
 
-use crate::{cost, hardness, served};
+use super::{cost, hardness, served};
 
 #[test]
 fn a_saved_cell_is_in_the_next_route_in_sql_in_the_history_and_undone_again() {
@@ -171,28 +171,6 @@ fn what_was_acknowledged_outlives_a_power_cut() {
         .collect();
     assert_eq!(kept, acknowledged);
     assert_eq!(site.sqlite3("PRAGMA integrity_check"), ["ok"]);
-}
-
-#[test]
-fn when_it_ends_the_database_is_one_file_again() {
-    let site = TestSite::example("paper").built();
-    let service = Service::start(&site);
-    service.ask("POST", "/api/edits", Some(&hardness("SQUAT", 3.0)));
-    assert_eq!(site.sqlite3("PRAGMA journal_mode"), ["wal"]);
-    service.end();
-    assert_eq!(site.sqlite3("PRAGMA journal_mode"), ["delete"]);
-    assert!(!site.path().join("site.db-wal").exists());
-}
-
-#[test]
-fn where_the_database_is_removed_no_edit_is_acknowledged() {
-    let (site, service) = served("paper");
-    let mut events = service.events();
-    events.next("hello");
-    std::fs::remove_file(site.path().join("site.db")).unwrap();
-    let (status, refused) = service.ask("POST", "/api/edits", Some(&hardness("SQUAT", 3.0)));
-    assert_eq!((status, &refused["error"]["code"]), (500, &json!("database/replaced")), "{refused}");
-    assert_eq!(events.next("problems")["problems"][0]["code"], "database/replaced");
 }
 
 #[test]

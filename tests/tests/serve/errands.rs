@@ -4,7 +4,7 @@ use adit_tests::TestSite;
 use adit_tests::service::Service;
 use serde_json::{Value, json};
 
-use crate::served;
+use super::served;
 
 const WAY: &str = "start=dock&goal=ward%2012";
 

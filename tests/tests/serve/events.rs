@@ -4,7 +4,7 @@ use adit_tests::TestSite;
 use adit_tests::service::Service;
 use serde_json::json;
 
-use crate::hardness;
+use super::hardness;
 
 #[test]
 fn subscribers_hear_what_changed_and_which_routes() {
@@ -28,25 +28,6 @@ fn subscribers_hear_what_changed_and_which_routes() {
 }
 
 #[test]
-fn what_another_program_edits_is_heard_within_a_second() {
-    let site = TestSite::example("paper").built();
-    let service = Service::start(&site);
-    let mut events = service.events();
-    let before = events.next("hello")["generation"].as_u64().unwrap();
-    site.adit("tune", &["robots", "SQUAT", "hardness", "3"]).expect_status(0);
-    let began = std::time::Instant::now();
-    assert!(events.next("changed")["generation"].as_u64().unwrap() > before);
-    assert!(began.elapsed().as_secs_f64() < 1.0);
-    site.outside_edit("UPDATE robots SET hardness = 5 WHERE state = 'SQUAT'");
-    events.next("changed");
-    let (_, tables) = service.ask("GET", "/api/tables", None);
-    assert!(
-        tables["tables"][0]["rows"].as_array().unwrap().iter().any(|row| row[5] == json!(5.0)),
-        "{tables}"
-    );
-}
-
-#[test]
 fn more_subscribers_than_there_are_places_are_told_to_come_back() {
     let site = TestSite::example("paper").built();
     let service = Service::start_with(&site, &["--listen", "127.0.0.1:0", "--subscribers", "2"]);
@@ -57,7 +38,7 @@ fn more_subscribers_than_there_are_places_are_told_to_come_back() {
     let (status, refused) = service.ask("GET", "/api/events", None);
     assert_eq!((status, &refused["error"]["code"]), (503, &json!("service/busy")));
     drop(places);
-    crate::within_a_second(|| {
+    super::within_a_second(|| {
         // a place is free again once the service notices that its reader is gone
         service.ask("POST", "/api/edits", Some(&hardness("SQUAT", 3.0)));
         service.ask("POST", "/api/edits", Some(&hardness("SQUAT", 4.0)));

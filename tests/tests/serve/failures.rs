@@ -5,7 +5,7 @@ use adit_tests::TestSite;
 use adit_tests::service::Service;
 use serde_json::{Value, json};
 
-use crate::served;
+use super::served;
 
 /// Fails unless an answer is a failure as the description says it.
 #[track_caller]

@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use crate::served;
+use super::served;
 
 /// The packed floor, read as the manual describes it.
 struct Packed {

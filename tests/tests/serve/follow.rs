@@ -8,7 +8,7 @@ use adit_tests::oracle::random::Chance;
 use adit_tests::service::Service;
 use serde_json::{Value, json};
 
-use crate::{hardness, served};
+use super::{hardness, served};
 
 /// How soon after an edit a follower holds the route that is the best since.
 const SOON: Duration = Duration::from_millis(500);
@@ -17,16 +17,16 @@ const SOON: Duration = Duration::from_millis(500);
 const MISSED: Duration = Duration::from_secs(5);
 
 /// The way that most tests follow.
-const WAY: &str = "start=dock&goal=ward%2012";
+pub const WAY: &str = "start=dock&goal=ward%2012";
 
 /// What is said of a route, whatever else happened to the site.
-fn route(answer: &Value) -> Value {
+pub fn route(answer: &Value) -> Value {
     let mut route = answer.clone();
     route.as_object_mut().unwrap().remove("generation");
     route
 }
 
-fn asked(service: &Service, question: &str) -> Value {
+pub fn asked(service: &Service, question: &str) -> Value {
     let (status, answer) = service.ask("GET", &format!("/api/route?{question}"), None);
     assert_eq!(status, 200, "{answer}");
     route(&answer)
@@ -54,12 +54,12 @@ fn doorways(route: &Value) -> Vec<String> {
 }
 
 /// The doorway of the usual way about which there is another way.
-fn doorway(first: &Value) -> String {
+pub fn doorway(first: &Value) -> String {
     doorways(&first["route"])[1].clone()
 }
 
 #[track_caller]
-fn says(event: &Value, words: &[&str]) {
+pub fn says(event: &Value, words: &[&str]) {
     let said = event["words"].as_str().unwrap();
     for word in words {
         assert!(said.contains(word), "`{said}` does not say `{word}`");
@@ -156,25 +156,6 @@ fn a_closing_that_ends_by_itself_is_heard_when_it_ends() {
     assert!(late < SOON, "{late:?}");
     says(&again, &["clock: fact 1 (DOORWAYS ", "closed = true) has ended", "no longer: doorway "]);
     assert_eq!(route(&again["route"]), route(&first["route"]));
-}
-
-#[test]
-fn what_another_program_closes_is_heard_with_who_did_it() {
-    let (site, service) = served("clinic");
-    let mut follower = service.follow(WAY);
-    let first = follower.next("route");
-    let door = doorway(&first);
-    site.adit("close", &[&door, "--why", "a trolley"]).expect_status(0);
-    let other = follower.next("route");
-    says(&other, &["another way", &format!("{door} at ("), "fact 1 (DOORWAYS ", "is told (a trolley)"]);
-    assert_eq!(route(&other["route"]), asked(&service, WAY));
-    // where it is led is no place any more
-    site.edit("map.toml", "{ name = \"ward 12\"", "{ name = \"ward 112\"");
-    let gone = follower.next("route");
-    says(
-        &gone,
-        &["there is no way any more: `ward 12` is no place", "files: rules, map or settings were saved"],
-    );
 }
 
 #[test]

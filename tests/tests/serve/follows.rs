@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use adit_tests::TestSite;
 use adit_tests::service::Service;
 
-use crate::{cost, hardness};
+use super::{cost, hardness};
 
 #[test]
 fn by_state_an_answer_is_right_at_once_and_sql_soon_after() {

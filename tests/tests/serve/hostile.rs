@@ -8,7 +8,7 @@ use adit_tests::TestSite;
 use adit_tests::service::Service;
 use serde_json::{Value, json};
 
-use crate::{hardness, served};
+use super::{hardness, served};
 
 /// What the service may come to hold while hostile texts are worked on.
 const MEMORY: u64 = 700 << 20;

@@ -8,7 +8,7 @@ use adit_tests::lock::Lock;
 use adit_tests::service::Service;
 use serde_json::{Value, json};
 
-use crate::hardness;
+use super::hardness;
 
 const PATIENCE: &[&str] = &["--listen", "127.0.0.1:0", "--answer-seconds", "1.5"];
 

@@ -8,7 +8,7 @@ use adit_tests::lock::Lock;
 use adit_tests::service::Service;
 use serde_json::{Value, json};
 
-use crate::{hardness, served};
+use super::{hardness, served};
 
 fn token(site: &TestSite, name: &str, roles: &[&str]) -> String {
     let mut arguments = vec!["add", name];
@@ -61,7 +61,7 @@ fn a_token_that_is_taken_away_is_void_within_a_second() {
     let ask = || service.ask_as(&[&anna], "GET", "/api/site", None).0;
     assert_eq!(ask(), 200);
     site.adit("token", &["remove", "anna"]).expect_status(0);
-    crate::within_a_second(|| ask() == 401);
+    super::within_a_second(|| ask() == 401);
 }
 
 /// A token went, and with it the way in: `tokens.toml` emptied by an editor, cut off by a full disk, commented out, removed
@@ -92,13 +92,13 @@ fn a_service_that_asked_for_tokens_stays_closed_when_none_is_left_and_says_so() 
         let as_anna = |token: &str| service.ask_as(&[token], "GET", "/api/site", None).0;
         assert_eq!(as_anna(&anna), 200);
         take_away(&site);
-        crate::within_a_second(|| as_anna(&anna) == 401);
+        super::within_a_second(|| as_anna(&anna) == 401);
         let (status, refused) = service.ask("POST", "/api/edits", Some(&hardness("SQUAT", 3.0)));
         assert_eq!((status, refused["error"]["code"].as_str()), (401, Some("auth/token-missing")), "{how}");
-        crate::within_a_second(|| service.log().contains("nobody is let in"));
+        super::within_a_second(|| service.log().contains("nobody is let in"));
         // a new token opens it again, to its holder
         let ben = token(&site, "ben", &["read"]);
-        crate::within_a_second(|| as_anna(&ben) == 200);
+        super::within_a_second(|| as_anna(&ben) == 200);
         assert_eq!(service.ask("GET", "/api/site", None).0, 401, "{how}");
     }
 }
@@ -109,7 +109,7 @@ fn a_service_that_got_its_first_token_while_it_ran_stays_closed_too() {
     let ask = || service.ask("GET", "/api/site", None).0;
     assert_eq!(ask(), 200);
     token(&site, "anna", &["read"]);
-    crate::within_a_second(|| ask() == 401);
+    super::within_a_second(|| ask() == 401);
     fs::remove_file(site.path().join("tokens.toml")).unwrap();
     std::thread::sleep(Duration::from_secs(1));
     assert_eq!(ask(), 401);
@@ -122,7 +122,7 @@ fn a_file_of_tokens_that_cannot_be_read_lets_in_whom_it_let_in_before_and_is_sai
     let service = Service::start(&site);
     let good = site.read("tokens.toml");
     site.write("tokens.toml", good.replace("sha256", "sha257"));
-    crate::within_a_second(|| service.log().contains("sha257"));
+    super::within_a_second(|| service.log().contains("sha257"));
     let (status, seen) = service.ask_as(&[&anna], "GET", "/api/site", None);
     assert_eq!((status, &seen["problems"][0]["code"]), (200, &json!("tokens/unreadable")), "{seen}");
     assert_eq!(service.ask("GET", "/api/site", None).0, 401);
@@ -134,7 +134,7 @@ fn a_file_of_tokens_that_cannot_be_read_lets_in_whom_it_let_in_before_and_is_sai
     let seen = service.ask_as(&[&anna], "GET", "/api/site", None).1;
     assert_eq!(seen["problems"][0]["code"], "tokens/unreadable", "{seen}");
     site.write("tokens.toml", good);
-    crate::within_a_second(|| service.ask_as(&[&anna], "GET", "/api/site", None).1["problems"] == json!([]));
+    super::within_a_second(|| service.ask_as(&[&anna], "GET", "/api/site", None).1["problems"] == json!([]));
 }
 
 #[test]
@@ -171,7 +171,7 @@ fn who_may_come_in_does_not_wait_for_an_edit_that_takes_long() {
             scope.spawn(|| service.ask_as(&[&anna], "POST", "/api/edits", Some(&hardness("SQUAT", 3.0))));
         std::thread::sleep(Duration::from_millis(300));
         site.adit("token", &["remove", "anna"]).expect_status(0);
-        crate::within_a_second(|| service.ask_as(&[&anna], "GET", "/api/site", None).0 == 401);
+        super::within_a_second(|| service.ask_as(&[&anna], "GET", "/api/site", None).0 == 401);
         assert!(!edit.is_finished(), "the edit still waits for the database");
         drop(lock);
         assert_eq!(edit.join().unwrap().0, 200, "what was begun with a good token is done");
@@ -191,7 +191,7 @@ fn a_token_that_is_taken_away_while_rules_are_saved_is_void_all_the_same() {
     let save = json!({"text": text, "version": file["version"]});
     site.adit("token", &["remove", "ben"]).expect_status(0);
     assert_eq!(service.ask_as(&[&anna], "PUT", "/api/rules/doors.rhai", Some(&save)).0, 200);
-    crate::within_a_second(|| service.ask_as(&[&ben], "GET", "/api/site", None).0 == 401);
+    super::within_a_second(|| service.ask_as(&[&ben], "GET", "/api/site", None).0 == 401);
 }
 
 #[test]

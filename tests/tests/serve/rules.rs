@@ -4,10 +4,10 @@ use adit_tests::TestSite;
 use adit_tests::service::Service;
 use serde_json::{Value, json};
 
-use crate::{cost, within_a_second};
+use super::{cost, within_a_second};
 
 /// A served copy of the paper's example with rules of its own.
-fn served() -> (TestSite, Service) {
+pub fn served() -> (TestSite, Service) {
     let site = TestSite::example("paper");
     site.copy_rules_and_tests("paper");
     let site = site.built();
@@ -15,7 +15,7 @@ fn served() -> (TestSite, Service) {
     (site, service)
 }
 
-fn file(service: &Service, name: &str) -> (String, Value) {
+pub fn file(service: &Service, name: &str) -> (String, Value) {
     let (_, rules) = service.ask("GET", "/api/rules", None);
     let all = rules["files"].as_array().unwrap().iter().chain(rules["tests"].as_array().unwrap());
     let found =
@@ -166,11 +166,11 @@ fn only_files_of_the_rule_base_are_written() {
     assert!(site.read("site.toml").contains("name"));
 }
 
-fn write(file: &str, text: Option<&str>, version: &Value) -> Value {
+pub fn write(file: &str, text: Option<&str>, version: &Value) -> Value {
     json!({"kind": "write", "file": file, "text": text, "version": version})
 }
 
-fn edit(service: &Service, edits: &[Value]) -> (u16, Value) {
+pub fn edit(service: &Service, edits: &[Value]) -> (u16, Value) {
     service.ask(
         "POST",
         "/api/edits",
@@ -264,24 +264,8 @@ fn a_file_has_its_versions_and_none_is_taken_back_over_what_somebody_saved_since
 }
 
 #[test]
-fn the_program_tells_of_edited_rules_and_takes_them_back() {
-    let (site, service) = served();
-    let (text, version) = file(&service, "rooms.rhai");
-    let cell = json!({"kind": "set", "table": "robots", "key": "SQUAT", "column": "hardness", "value": 3});
-    let rule = write("rooms.rhai", Some(&format!("// One.\n{text}")), &version);
-    assert_eq!(edit(&service, &[rule, cell]).0, 200);
-    service.end();
-    let told = site.adit("history", &[]).expect_status(0).stdout;
-    assert!(told.contains("rule file rooms.rhai") && told.contains("1 line more"), "{told}");
-    let undone = site.adit("undo", &["1"]).expect_status(0).stdout;
-    assert!(undone.contains("rule file rooms.rhai is as it was before, and one more"), "{undone}");
-    assert_eq!(site.read("rules/rooms.rhai"), text);
-    assert_eq!(site.sqlite3("SELECT hardness FROM robots WHERE state = 'SQUAT'"), ["4.0"]);
-}
-
-#[test]
 fn decision_tables_are_read_as_grids_as_they_are_saved_and_as_they_are_typed() {
-    let (site, service) = crate::served("shop");
+    let (site, service) = super::served("shop");
     let ask = |body: Value| service.ask("POST", "/api/rules/tables", Some(&body));
     let (status, saved) = ask(json!({"file": "orders.rhai"}));
     let grid = &saved["tables"][0];

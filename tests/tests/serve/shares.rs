@@ -10,7 +10,7 @@ use adit_tests::lock::Lock;
 use adit_tests::service::Service;
 use serde_json::{Value, json};
 
-use crate::hardness;
+use super::hardness;
 
 /// A site with two callers, and the tokens of both.
 fn with_two_callers(arguments: &[&str]) -> (TestSite, Service, [String; 2]) {

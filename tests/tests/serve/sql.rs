@@ -4,7 +4,7 @@ use adit_tests::TestSite;
 use adit_tests::service::Service;
 use serde_json::{Value, json};
 
-use crate::served;
+use super::served;
 
 fn ask(service: &Service, query: &str) -> (u16, Value) {
     service.ask("POST", "/api/sql", Some(&json!({"query": query})))

@@ -1,0 +1,147 @@
+//! What is of a site's own file alone: of one in PostgreSQL there is no file that others would write, or that would be all there is.
+
+use std::path::Path;
+
+use adit_db::Store;
+use adit_tests::TestSite;
+use adit_tests::service::Service;
+use serde_json::json;
+
+use crate::suite::{follow, hardness, rules, served};
+
+/// What the file alone says of a cell that was edited.
+fn hardness_in(database: &Path) -> String {
+    let folder = TestSite::empty();
+    std::fs::copy(database, folder.path().join("site.db")).unwrap();
+    folder.sqlite3("SELECT hardness FROM robots WHERE state = 'SQUAT'").join(" ")
+}
+
+fn files_of_the_database(site: &TestSite) -> Vec<String> {
+    let files = std::fs::read_dir(site.path()).unwrap();
+    let names = files.map(|file| file.unwrap().file_name().into_string().unwrap());
+    names.filter(|name| name.starts_with("site.db")).collect()
+}
+
+#[test]
+fn when_it_ends_the_database_is_one_file_again() {
+    let site = TestSite::example("paper").built();
+    let service = Service::start(&site);
+    service.ask("POST", "/api/edits", Some(&hardness("SQUAT", 3.0)));
+    assert_eq!(site.sqlite3("PRAGMA journal_mode"), ["wal"]);
+    service.end();
+    assert_eq!(site.sqlite3("PRAGMA journal_mode"), ["delete"]);
+    assert!(!site.path().join("site.db-wal").exists());
+}
+
+#[test]
+fn where_the_database_is_removed_no_edit_is_acknowledged() {
+    let (site, service) = served("paper");
+    let mut events = service.events();
+    events.next("hello");
+    std::fs::remove_file(site.path().join("site.db")).unwrap();
+    let (status, refused) = service.ask("POST", "/api/edits", Some(&hardness("SQUAT", 3.0)));
+    assert_eq!((status, &refused["error"]["code"]), (500, &json!("database/replaced")), "{refused}");
+    assert_eq!(events.next("problems")["problems"][0]["code"], "database/replaced");
+}
+
+#[test]
+fn what_another_program_edits_is_heard_within_a_second() {
+    let site = TestSite::example("paper").built();
+    let service = Service::start(&site);
+    let mut events = service.events();
+    let before = events.next("hello")["generation"].as_u64().unwrap();
+    site.adit("tune", &["robots", "SQUAT", "hardness", "3"]).expect_status(0);
+    let began = std::time::Instant::now();
+    assert!(events.next("changed")["generation"].as_u64().unwrap() > before);
+    assert!(began.elapsed().as_secs_f64() < 1.0);
+    site.outside_edit("UPDATE robots SET hardness = 5 WHERE state = 'SQUAT'");
+    events.next("changed");
+    let (_, tables) = service.ask("GET", "/api/tables", None);
+    assert!(
+        tables["tables"][0]["rows"].as_array().unwrap().iter().any(|row| row[5] == json!(5.0)),
+        "{tables}"
+    );
+}
+
+#[test]
+fn what_another_program_closes_is_heard_with_who_did_it() {
+    let (site, service) = served("clinic");
+    let mut follower = service.follow(follow::WAY);
+    let first = follower.next("route");
+    let door = follow::doorway(&first);
+    site.adit("close", &[&door, "--why", "a trolley"]).expect_status(0);
+    let other = follower.next("route");
+    follow::says(
+        &other,
+        &["another way", &format!("{door} at ("), "fact 1 (DOORWAYS ", "is told (a trolley)"],
+    );
+    assert_eq!(follow::route(&other["route"]), follow::asked(&service, follow::WAY));
+    // where it is led is no place any more
+    site.edit("map.toml", "{ name = \"ward 12\"", "{ name = \"ward 112\"");
+    let gone = follower.next("route");
+    follow::says(
+        &gone,
+        &["there is no way any more: `ward 12` is no place", "files: rules, map or settings were saved"],
+    );
+}
+
+#[test]
+fn the_program_tells_of_edited_rules_and_takes_them_back() {
+    let (site, service) = rules::served();
+    let (text, version) = rules::file(&service, "rooms.rhai");
+    let cell = json!({"kind": "set", "table": "robots", "key": "SQUAT", "column": "hardness", "value": 3});
+    let rule = rules::write("rooms.rhai", Some(&format!("// One.\n{text}")), &version);
+    assert_eq!(rules::edit(&service, &[rule, cell]).0, 200);
+    service.end();
+    let told = site.adit("history", &[]).expect_status(0).stdout;
+    assert!(told.contains("rule file rooms.rhai") && told.contains("1 line more"), "{told}");
+    let undone = site.adit("undo", &["1"]).expect_status(0).stdout;
+    assert!(undone.contains("rule file rooms.rhai is as it was before, and one more"), "{undone}");
+    assert_eq!(site.read("rules/rooms.rhai"), text);
+    assert_eq!(site.sqlite3("SELECT hardness FROM robots WHERE state = 'SQUAT'"), ["4.0"]);
+}
+
+#[test]
+fn a_clean_end_leaves_one_file_with_every_edit_in_it() {
+    for signal in ["TERM", "INT"] {
+        let (site, service) = served("paper");
+        for question in ["/api/history", "/api/facts", "/api/schema", "/api/sql?query=SELECT%201"] {
+            assert_eq!(service.ask("GET", question, None).0, 200, "{question}");
+        }
+        assert_eq!(service.ask("POST", "/api/edits", Some(&hardness("SQUAT", 3.25))).0, 200);
+        service.end_by(signal);
+        assert_eq!(files_of_the_database(&site), ["site.db"], "after SIG{signal}");
+        assert_eq!(hardness_in(&site.path().join("site.db")), "3.25");
+    }
+}
+
+/// A service that is killed leaves its log beside the database; the next program that writes takes it in.
+#[test]
+fn after_a_killed_service_the_next_edit_leaves_one_file() {
+    let (site, service) = served("paper");
+    assert_eq!(service.ask("POST", "/api/edits", Some(&hardness("SQUAT", 3.25))).0, 200);
+    service.kill();
+    site.adit("tune", &["robots", "LIE-FACE-DOWN", "hardness", "8"]).expect_status(0);
+    for (verb, arguments) in
+        [("sql", &["SELECT 1"][..]), ("route", &["f", "e"]), ("history", &[]), ("doctor", &[])]
+    {
+        site.adit(verb, arguments).expect_status(0);
+        assert_eq!(files_of_the_database(&site), ["site.db"], "after adit {verb}");
+    }
+    assert_eq!(hardness_in(&site.path().join("site.db")), "3.25");
+}
+
+#[test]
+fn a_reader_of_somebody_elses_does_not_keep_edits_out_of_the_file() {
+    let (site, service) = served("paper");
+    assert_eq!(service.ask("POST", "/api/edits", Some(&hardness("SQUAT", 3.25))).0, 200);
+    let database = site.path().join("site.db");
+    let mut reader = Store::open_read_only(&database).unwrap();
+    let read = reader.snapshot(|tx| {
+        tx.rooms()?;
+        service.end();
+        assert_eq!(hardness_in(&database), "3.25");
+        tx.rooms()
+    });
+    assert!(!read.unwrap().is_empty());
+}
