@@ -3,6 +3,7 @@
 use adit_db::conclusion::Derivation;
 use adit_db::{Cell, Error};
 
+use crate::made::Led;
 use crate::paper;
 
 #[test]
@@ -37,6 +38,7 @@ fn what_is_concluded_of_other_classes_stands_beside_it() {
         witness: None,
     };
     store
+        .led()
         .transaction(|tx| {
             tx.replace_derivations(&[spill])?;
             let found = tx.conclusions("spills", &Cell::from("hall"))?;

@@ -3,6 +3,7 @@
 use adit_db::history::Author;
 use adit_db::{Cell, Error, Store};
 
+use crate::made::Led;
 use crate::paper;
 
 fn author() -> Author {
@@ -16,7 +17,7 @@ fn tune(
     value: impl Into<Cell>,
 ) -> Result<adit_db::edit::Edited, Error> {
     let value = value.into();
-    store.transaction(|tx| tx.set_cell(("robots", key, column), &value, &author()))
+    store.led().transaction(|tx| tx.set_cell(("robots", key, column), &value, &author()))
 }
 
 #[test]
@@ -66,6 +67,7 @@ fn names_that_are_not_there_are_named() {
     assert!(said(&mut store, "SQUAT", "hard").contains("no column `hard`; it has robot, state, action"));
     let table = |store: &mut Store, table: &str| {
         store
+            .led()
             .transaction(|tx| tx.set_cell((table, "7", "hardness"), &Cell::Real(1.0), &author()))
             .unwrap_err()
     };
@@ -79,7 +81,7 @@ fn a_state_of_two_robots_needs_its_whole_key() {
     let cart = [("robot", "cart"), ("state", "SQUAT"), ("action", "ROLL")].map(|(c, v)| (c, Cell::from(v)));
     let sizes = [("height", 1.0), ("width", 1.0), ("hardness", 0.1)].map(|(c, v)| (c, Cell::from(v)));
     let row: Vec<(&str, Cell)> = cart.into_iter().chain(sizes).collect();
-    store.transaction(|tx| tx.add_row("robots", &row, &author())).unwrap();
+    store.led().transaction(|tx| tx.add_row("robots", &row, &author())).unwrap();
     assert!(matches!(tune(&mut store, "SQUAT", "hardness", 3.0), Err(Error::AmbiguousKey { .. })));
     tune(&mut store, "cart/SQUAT", "hardness", 3.0).unwrap();
 }
@@ -90,8 +92,9 @@ fn undo_takes_back_cells_and_rows_exactly() {
     let before = store.snapshot(|tx| tx.states()).unwrap();
     tune(&mut store, "SQUAT", "hardness", 0.1 + 0.2).unwrap();
     tune(&mut store, "SQUAT", "state", "CROUCH").unwrap();
-    store.transaction(|tx| tx.remove_row("robots", "CROUCH", &author())).unwrap();
+    store.led().transaction(|tx| tx.remove_row("robots", "CROUCH", &author())).unwrap();
     store
+        .led()
         .transaction(|tx| {
             for id in tx.undoable(3)? {
                 tx.undo(id, &author())?;
@@ -109,12 +112,12 @@ fn an_undo_never_overwrites_a_later_edit() {
     let (_folder, mut store) = paper::site();
     let first = tune(&mut store, "SQUAT", "hardness", 3.0).unwrap();
     tune(&mut store, "SQUAT", "hardness", 5.0).unwrap();
-    let refused = store.transaction(|tx| tx.undo(first.id, &author())).unwrap_err();
+    let refused = store.led().transaction(|tx| tx.undo(first.id, &author())).unwrap_err();
     assert_eq!(
         refused.to_string(),
         "edit 1 cannot be taken back: robots.robot/SQUAT.hardness is 5 now, not 3"
     );
-    let again = store.transaction(|tx| {
+    let again = store.led().transaction(|tx| {
         tx.undo(2, &author())?;
         tx.undo(2, &author())
     });
@@ -128,6 +131,7 @@ fn a_change_goes_with_its_state() {
         [("robot", "robot"), ("from_state", "STAND"), ("to_state", "SQUAT")].map(|(c, v)| (c, Cell::from(v)));
     let row: Vec<(&str, Cell)> = row.into_iter().chain([("hardness", Cell::Real(2.0))]).collect();
     store
+        .led()
         .transaction(|tx| {
             tx.add_row("changes", &row, &author())?;
             tx.set_cell(("changes", "STAND/SQUAT", "hardness"), &Cell::Real(1.0), &author())?;

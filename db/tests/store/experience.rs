@@ -2,16 +2,11 @@
 
 use adit_db::experience::{Cell, Clearance, Edge, Experience, Pair, Removed, Step, Subgoal, Tag, Task};
 use adit_db::{Error, Store};
-use tempfile::TempDir;
 
-fn store() -> (TempDir, Store) {
-    let folder = tempfile::tempdir().unwrap();
-    let store = Store::open_for_worlds(folder.path().join("cell.db")).unwrap();
-    (folder, store)
-}
+use crate::made::{self, Led};
 
 fn keep(store: &mut Store, step: &Step) -> Result<(), Error> {
-    store.transaction(|tx| tx.keep_step(step))
+    store.led().transaction(|tx| tx.keep_step(step))
 }
 
 fn kept(store: &mut Store) -> Option<Experience> {
@@ -73,7 +68,7 @@ fn first() -> Step {
 
 #[test]
 fn what_a_task_taught_is_read_back_to_the_bit() {
-    let (_folder, mut store) = store();
+    let (_folder, mut store) = made::worlds();
     let step = first();
     keep(&mut store, &step).unwrap();
     let found = kept(&mut store).unwrap();
@@ -84,7 +79,7 @@ fn what_a_task_taught_is_read_back_to_the_bit() {
 
 #[test]
 fn a_later_task_changes_what_is_there() {
-    let (_folder, mut store) = store();
+    let (_folder, mut store) = made::worlds();
     keep(&mut store, &first()).unwrap();
     let gone = |number| Removed { number, task: 2, because: "broken", revision: Some(1), object: None };
     let later = Step {
@@ -110,7 +105,7 @@ fn a_later_task_changes_what_is_there() {
 
 #[test]
 fn what_is_forgotten_goes_before_what_is_learned_anew() {
-    let (_folder, mut store) = store();
+    let (_folder, mut store) = made::worlds();
     keep(&mut store, &first()).unwrap();
     let anew = Step {
         cell: Cell { next_subgoal: 4, ..cell(2) },
@@ -126,7 +121,7 @@ fn what_is_forgotten_goes_before_what_is_learned_anew() {
 
 #[test]
 fn a_step_that_is_refused_leaves_nothing_behind() {
-    let (_folder, mut store) = store();
+    let (_folder, mut store) = made::worlds();
     keep(&mut store, &first()).unwrap();
     let before = kept(&mut store);
 

@@ -13,6 +13,7 @@ mod conclusions;
 mod editing;
 mod example;
 mod experience;
+mod made;
 mod opening;
 mod paper;
 mod plan;

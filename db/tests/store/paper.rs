@@ -8,17 +8,17 @@ use adit_db::robot::State;
 use adit_db::room::Room;
 use adit_db::tree::{End, EndKind, Start, TreeRow};
 use adit_db::{Derived, Result, Store, Tx};
-use tempfile::TempDir;
+
+use crate::made::{self, Folder, Led};
 
 pub const ROBOT: &str = "robot";
 pub const WEIGH: i64 = 1;
 pub const WALK_IN: i64 = 2;
 
 /// A site's folder and its database, holding the example.
-pub fn site() -> (TempDir, Store) {
-    let folder = tempfile::tempdir().unwrap();
-    let mut store = Store::create(folder.path().join("site.db")).unwrap();
-    store.transaction(fill).unwrap();
+pub fn site() -> (Folder, Store) {
+    let (folder, mut store) = made::site();
+    store.led().transaction(fill).unwrap();
     (folder, store)
 }
 

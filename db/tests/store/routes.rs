@@ -6,6 +6,7 @@ use adit_db::tree::{End, EndKind, Start, TreeRow};
 use adit_db::weight::Weight;
 use adit_db::{Derived, Error, Store};
 
+use crate::made::{Folder, Led};
 use crate::paper::{self, START, door, step};
 
 fn end(name: &str, node: i64) -> End {
@@ -21,6 +22,7 @@ fn start(name: &str, robot: &str, tree: i64) -> Start {
 fn of_two_doors_between_the_same_rooms_the_route_names_its_own() {
     let (_folder, mut store) = paper::site();
     store
+        .led()
         .transaction(|tx| {
             let mut doors = paper::doors();
             let mut chute = door(9, 6, 4, 5.0, "SLIDE", [1.0, 16.5]);
@@ -42,7 +44,7 @@ fn of_two_doors_between_the_same_rooms_the_route_names_its_own() {
 }
 
 /// Two layers: the robot stands in room 1, kneels down (a change), and passes a door on its knees.
-fn layered() -> (tempfile::TempDir, Store) {
+fn layered() -> (Folder, Store) {
     let (folder, mut store) = paper::site();
     let fill = |tx: &mut adit_db::Tx<'_>| {
         let mut rooms = paper::rooms();
@@ -83,7 +85,7 @@ fn layered() -> (tempfile::TempDir, Store) {
         tx.mark_fresh()?;
         Ok::<_, Error>(())
     };
-    store.transaction(fill).unwrap();
+    store.led().transaction(fill).unwrap();
     (folder, store)
 }
 
@@ -130,6 +132,7 @@ fn a_goal_in_the_start_s_own_room_is_one_step() {
 fn the_second_robot_has_routes_of_its_own() {
     let (_folder, mut store) = paper::site();
     store
+        .led()
         .transaction(|tx| {
             let mut states = tx.states()?;
             let mut second = states[0].clone();
@@ -153,6 +156,7 @@ fn the_second_robot_has_routes_of_its_own() {
 fn a_new_weight_is_written_to_its_door_and_to_no_other() {
     let (_folder, mut store) = paper::site();
     store
+        .led()
         .transaction(|tx| {
             let before = tx.doors()?;
             let weight = Weight { hardness: Derived::by(paper::WEIGH, None, 40.0), ..before[6].weight() };
