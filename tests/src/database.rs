@@ -19,7 +19,7 @@ const OF_THE_FOLDER: [&str; 4] = ["build", "check", "serve", "token"];
 /// Commands that only read, and so do it in a copy.
 const THAT_READ: [&str; 3] = ["history", "route", "sql"];
 
-/// Whether these tests are about sites in PostgreSQL.
+/// Whether these tests are about sites in PostgreSQL: by the name of their target, or by `ADIT_TESTS_ON=postgres`.
 pub fn on_postgres() -> bool {
     static SAYS: OnceLock<bool> = OnceLock::new();
     *SAYS.get_or_init(|| {

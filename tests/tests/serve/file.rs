@@ -7,7 +7,8 @@ use adit_tests::TestSite;
 use adit_tests::service::Service;
 use serde_json::json;
 
-use crate::suite::{follow, hardness, rules, served};
+use crate::requests::follow;
+use crate::suite::{hardness, rules, served};
 
 /// What the file alone says of a cell that was edited.
 fn hardness_in(database: &Path) -> String {

@@ -1,9 +1,13 @@
-//! What is the same whatever database a site is in: requests that are refused, what a service says of itself, the floor as it is
-//! sent, and what hostile requests may take.
+//! What differs little with the database that a site is in: requests that are refused, who may come in, what a service says of itself
+//! and of its routes, and what hostile requests may take.
 
 mod described;
+mod errands;
 mod failures;
 mod floor;
+pub mod follow;
 mod hostile;
+mod roles;
+mod sql;
 
-use crate::suite::{hardness, served};
+use crate::suite::{hardness, served, within_a_second};

@@ -1,17 +1,13 @@
-//! What holds of a service on either database. What does not come near one is in `requests.rs`.
+//! What a service keeps, and how that is followed. The rest is in `requests.rs`.
 
 mod closings;
 mod disk;
 mod edits;
-mod errands;
 mod events;
-pub mod follow;
 mod follows;
 mod late;
-mod roles;
 pub mod rules;
 mod shares;
-mod sql;
 
 use std::time::{Duration, Instant};
 
