@@ -11,6 +11,8 @@ mod lease;
 mod several;
 #[path = "postgres/storm.rs"]
 mod storm;
+#[path = "postgres/thousand.rs"]
+mod thousand;
 #[path = "postgres/views.rs"]
 mod views;
 
