@@ -2,6 +2,7 @@
 
 mod direct;
 pub(crate) mod explain;
+mod memory;
 
 use std::sync::Arc;
 
