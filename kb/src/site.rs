@@ -2,6 +2,7 @@
 
 pub(crate) mod alone;
 pub(crate) mod base;
+pub(crate) mod calm;
 pub(crate) mod clock;
 pub(crate) mod driving;
 pub(crate) mod figures;

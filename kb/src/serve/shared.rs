@@ -27,6 +27,7 @@ use super::waiting::Waiting;
 use crate::error::Result;
 use crate::error::problem::Problem;
 use crate::live::View;
+use crate::site::calm::come_after_others;
 use crate::state::State;
 
 mod parking;
@@ -145,11 +146,26 @@ impl Shared {
         asker: &Arc<Asker>,
         work: impl FnOnce(State) -> Result<T> + Send + 'static,
     ) -> Answered<T> {
+        let (place, fork, _waits) = self.fork(asker).await?;
+        after_others(place, move || work(fork)).await
+    }
+
+    /// The same for a robot that waits for its answer.
+    pub async fn on_errand<T: Send + 'static>(
+        self: &Arc<Self>,
+        asker: &Arc<Asker>,
+        work: impl FnOnce(State) -> Result<T> + Send + 'static,
+    ) -> Answered<T> {
+        let (place, fork, _waits) = self.fork(asker).await?;
+        beside(place, move || work(fork)).await
+    }
+
+    /// A place, a copy of what is known, and what is to be held for as long as somebody waits.
+    async fn fork(self: &Arc<Self>, asker: &Arc<Asker>) -> Answered<(Place, State, Arc<()>)> {
         let place = self.long.take(asker).await;
         let waits = Arc::new(());
         let fork = self.edit_at_desk(asker, &Waiting::default(), |desk| Ok(desk.live.fork())).await?;
-        let fork = fork.waited_for_by(Arc::downgrade(&waits));
-        beside(place, move || work(fork)).await
+        Ok((place, fork.waited_for_by(Arc::downgrade(&waits)), waits))
     }
 
     /// Has something done where edits are done, after all that was asked before; not where nobody waits for it any more.
@@ -199,7 +215,7 @@ impl Shared {
         work: impl FnOnce(&mut Store) -> Result<T> + Send + 'static,
     ) -> Answered<T> {
         let (shared, place) = (Arc::clone(self), self.long.take(asker).await);
-        beside(place, move || shared.readers.with(work)).await
+        after_others(place, move || shared.readers.with(work)).await
     }
 
     /// Finds a route anew for whoever follows it; no more at once than there are cores, since an edit concerns all followers.
@@ -238,7 +254,7 @@ impl Shared {
         work: impl FnOnce() -> Result<T> + Send + 'static,
     ) -> Answered<T> {
         let place = self.long.take(asker).await;
-        beside(place, work).await
+        after_others(place, work).await
     }
 
     /// What is wrong with files that were saved; the service goes on with those of before.
@@ -290,6 +306,22 @@ pub async fn beside<T: Send + 'static, E: Into<Fault> + Send + 'static>(
         work()
     };
     tokio::task::spawn_blocking(placed).await.map_err(|_| Fault::internal())?.map_err(Into::into)
+}
+
+/// The same for what takes long: on a thread of its own that comes after those on which robots' questions are answered.
+async fn after_others<T: Send + 'static, E: Into<Fault> + Send + 'static>(
+    place: Place,
+    work: impl FnOnce() -> std::result::Result<T, E> + Send + 'static,
+) -> Answered<T> {
+    let (answer, answered) = oneshot::channel();
+    let placed = move || {
+        let _place = place;
+        come_after_others();
+        answer.send(work()).ok();
+    };
+    thread::Builder::new().name("long".to_owned()).spawn(placed).map_err(|_| Fault::busy())?;
+    // work that panicked leaves no answer
+    answered.await.map_err(|_| Fault::internal())?.map_err(Into::into)
 }
 
 pub struct Subscription {

@@ -43,6 +43,36 @@ fn a_crowd_of_slow_questions_of_one_caller_holds_up_nobody_else() {
     }
 }
 
+/// Once, a crowd's maps and reasons took the cores from robots' questions: these were answered 21 times as late.
+#[test]
+#[cfg(target_os = "linux")]
+fn what_takes_long_leaves_the_cores_to_robots_questions() {
+    let (_site, service, [crowd, _]) = with_two_callers(&[]);
+    let endless = "WITH RECURSIVE c (x) AS (SELECT 1 UNION ALL SELECT x + 1 FROM c) SELECT count(*) FROM c";
+    let _asked = send(&service.address, &crowd, &json!({"query": endless}).to_string(), None);
+    // each thread with how nice it is, as proc(5) has it
+    let threads = || {
+        let all = std::fs::read_dir(format!("/proc/{}/task", service.pid())).unwrap();
+        let stat = |task: std::io::Result<std::fs::DirEntry>| {
+            let stat = std::fs::read_to_string(task.ok()?.path().join("stat")).ok()?;
+            let (name, rest) = stat.split_once('(')?.1.rsplit_once(')')?;
+            Some((name.to_owned(), rest.split_whitespace().nth(16)?.parse::<i32>().ok()?))
+        };
+        all.filter_map(stat).collect::<Vec<_>>()
+    };
+    let niceness = |name: &str| {
+        let of_name = |(of, nice): (String, i32)| (of == name).then_some(nice);
+        threads().into_iter().find_map(of_name)
+    };
+    assert_eq!(adit_tests::within("it is worked on", || niceness("long")), 5);
+    let others = threads().into_iter().filter(|(name, _)| name != "long" && !name.starts_with("calm"));
+    assert!(
+        others.clone().count() > 2 && others.clone().all(|(_, nice)| nice == 0),
+        "{:?}",
+        others.collect::<Vec<_>>()
+    );
+}
+
 /// Edits are made one after the other; once, in the order in which they came.
 #[test]
 fn an_edit_waits_for_no_crowd_of_edits() {

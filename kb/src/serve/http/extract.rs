@@ -84,6 +84,14 @@ impl Site {
     ) -> Answered<T> {
         self.turn.aside(self.shared.on_fork(self.asker(), work)).await
     }
+
+    /// The same for a robot that waits for its answer.
+    pub async fn on_errand<T: Send + 'static>(
+        &self,
+        work: impl FnOnce(State) -> Done<T> + Send + 'static,
+    ) -> Answered<T> {
+        self.turn.aside(self.shared.on_errand(self.asker(), work)).await
+    }
 }
 
 impl Deref for Site {

@@ -27,7 +27,7 @@ struct Head {
     responses((status = 200, body = Vec<u8>, content_type = "application/octet-stream")))]
 pub async fn floor(site: Site) -> Answered<Response> {
     let seen = site.view.load_full();
-    let packed = site.beside(move || packed(MapAnswer::of(&seen.view, false))).await?;
+    let packed = site.at_length(move || packed(MapAnswer::of(&seen.view, false))).await?;
     Ok(([(header::CONTENT_TYPE, "application/octet-stream")], packed).into_response())
 }
 

@@ -128,8 +128,9 @@ pub(super) struct DoorOf {
 
 /// The floor: walls, rooms and doors.
 #[utoipa::path(get, path = "/api/map", tag = "map", responses((status = 200, body = MapAnswer)))]
-pub async fn map(site: Site) -> Json<MapAnswer> {
-    Json(MapAnswer::of(&site.view.load().view, true))
+pub async fn map(site: Site) -> Answered<Response> {
+    let seen = site.view.load_full();
+    site.at_length(move || Ok(Json(MapAnswer::of(&seen.view, true)).into_response())).await
 }
 
 /// Doors in their order, those at which a robot changes its shape where `with_changes`.
@@ -212,7 +213,7 @@ pub struct Drawn {
 pub async fn picture(site: Site, Asked(asked): Asked<Drawn>) -> Answered<Response> {
     let seen = site.view.load_full();
     let ends = asked.start.zip(asked.goal);
-    let svg = site.beside(move || {
+    let svg = site.at_length(move || {
         let ends = ends.as_ref().map(|(start, goal)| (start.as_str(), goal.as_str()));
         seen.view.picture(ends, asked.robot.as_deref())
     });

@@ -32,7 +32,7 @@ use crate::serve::question::{Question, checked};
 pub async fn route(site: Site, RawQuery(query): RawQuery) -> Answered<Response> {
     let question = Question::read(query.as_deref().unwrap_or_default())?;
     if !question.errand.is_none() {
-        let answer = site.on_fork(move |fork| question.answer_on_errand(fork)).await?;
+        let answer = site.on_errand(move |fork| question.answer_on_errand(fork)).await?;
         return checked(answer).map(|answer| Json(answer).into_response());
     }
     let seen = site.view.load_full();

@@ -6,6 +6,7 @@ use std::sync::Mutex;
 use adit_db::Store;
 
 use crate::error::Result;
+use crate::site::calm::apart;
 
 /// Connections that nobody reads by at the moment.
 pub struct Readers {
@@ -26,7 +27,8 @@ impl Readers {
         let free = self.free().pop();
         let mut store = match free {
             Some(store) => store,
-            None => Store::open_read_only(&self.database)?,
+            // a connection has a thread of its own, which is begun with it
+            None => apart(|| Store::open_read_only(&self.database))?,
         };
         let done = work(&mut store)?;
         let mut free = self.free();

@@ -10,6 +10,7 @@ use rayon::prelude::*;
 use super::straight::{At, Straight, is_inside, slope};
 use super::{Contrast, End, Found, Known, Look, Path, Takeover};
 use crate::error::Result;
+use crate::site::calm::side_by_side;
 use crate::state::tunable::{Effect, LARGEST, LAST, Lever, Line, Side, Weights, lowest};
 use crate::why::probe::{Probe, Prober};
 
@@ -96,7 +97,7 @@ impl<'t> Turn<'t> {
                 let piece = along.side(effect, side, within)?;
                 Some((piece, along))
             };
-            let found: Vec<Option<(Piece, Along)>> = some.par_iter().map(at_once).collect();
+            let found: Vec<Option<(Piece, Along)>> = side_by_side(|| some.par_iter().map(at_once).collect());
             for (&(effect, side), found) in some.iter().zip(found) {
                 self.is_exact = true;
                 let piece = if let Some((piece, along)) = found {
@@ -139,7 +140,7 @@ impl<'t> Turn<'t> {
             let mut along = begun.clone();
             (along.without_end_below(effects, group.clone(), (within, cost)), along)
         };
-        let found: Vec<(Vec<usize>, Along)> = groups.par_iter().map(alone).collect();
+        let found: Vec<(Vec<usize>, Along)> = side_by_side(|| groups.par_iter().map(alone).collect());
         for (group, along) in found {
             for of in group {
                 never[of] = true;
