@@ -31,9 +31,6 @@ const OFF_M: f64 = 0.5;
 /// So far points that stay clear are off what is laid beside them, metres.
 const HAIR_M: f64 = 1e-3;
 
-/// What is seen so near to where another robot says that its rim is, metres, is that robot.
-const NEAR_ROBOT_M: f64 = 0.3;
-
 /// Finds the site's routes, for a robot that is driven on it.
 pub(super) struct Site<'l> {
     pub live: &'l mut Live,
@@ -222,8 +219,9 @@ impl Site<'_> {
 
     /// What it met, without what others are that drive here: they are gone when somebody comes by.
     fn not_robots(&self, met: &[Met]) -> Vec<Met> {
+        let near_m = self.ground.driving.navigation.near_robot_m;
         let is_robot = |surface: &Segment| {
-            self.others.iter().any(|(at, radius)| surface.distance(*at) <= radius + NEAR_ROBOT_M)
+            self.others.iter().any(|(at, radius)| surface.distance(*at) <= radius + near_m)
         };
         let without = |one: &Met| {
             let seen = one.seen.iter().filter(|surface| !is_robot(surface)).copied().collect();

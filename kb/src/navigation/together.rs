@@ -32,9 +32,6 @@ const APART_M: f64 = 1.5;
 /// So many errands are drawn for one that is.
 const TRIES: usize = 200;
 
-/// Who found no way waits so long before it sets out for elsewhere, seconds.
-const PAUSE_S: f64 = 60.0;
-
 /// A door stays as it is for so long, seconds.
 const STAYS_S: [f64; 2] = [60.0, 300.0];
 
@@ -149,7 +146,8 @@ impl<'l> Missions<'l> {
                 };
                 let decided = std::mem::take(&mut notings[index].decided);
                 let row = self.row(&errand, (&robots[index], ending));
-                hand.rests_until = if ending == Ending::Arrived { time_s } else { time_s + PAUSE_S };
+                let pause_s = ground.driving.navigation.pause_s;
+                hand.rests_until = if ending == Ending::Arrived { time_s } else { time_s + pause_s };
                 hand.told = errand.on.told;
                 done(self, (row, errand.entries, decided), errand.on.said)?;
             }

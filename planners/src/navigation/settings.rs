@@ -44,6 +44,8 @@ settings! {
             most_closed: u32 = 2, "most_closed", "", Times, "Ways closed at one spot before a path is looked for off the network, through what is known to be free.";
             most_reports: u32 = 8, "most_reports", "", Times, "Ways that routes lead and that are reported closed at one spot before everything is looked at anew.";
             heed_s: f64 = 0.5, "heed", "s", Positive, "So often a robot on a site's route asks whether others changed what ways there are.";
+            near_robot_m: f64 = 0.3, "near_robot", "m", NotNegative, "What is seen so near to where another robot says that its rim is, is that robot.";
+            pause_s: f64 = 60.0, "pause", "s", NotNegative, "Of several robots who found no way waits so long before it sets out for elsewhere.";
             reported_s: f64 = 3600.0, "reported", "s", Positive, "What the robot tells a site of which rooms are cut holds so long.";
             most_retries: u32 = 2, "most_retries", "", Times, "Times that everything is looked at anew before there is no way.";
             give_way_m: f64 = 1.5, "give_way", "m", NotNegative, "Before it begins anew the robot goes back on its own track, up to so far, to give way.";
