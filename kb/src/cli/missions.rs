@@ -116,7 +116,12 @@ fn summary(rows: &[Row]) {
     };
     let spread = |(what, mut values): (&str, Vec<f64>)| {
         values.sort_by(f64::total_cmp);
-        let at = |share: f64| values.get(((values.len() as f64 - 1.0) * share).round() as usize);
+        // between two values, as far on as the share says
+        let at = |share: f64| {
+            let place = (values.len() as f64 - 1.0) * share;
+            let (low, high) = (values.get(place.floor() as usize)?, values.get(place.ceil() as usize)?);
+            Some(low + (high - low) * place.fract())
+        };
         let figure = |share| at(share).map_or_else(|| "-".to_owned(), |value| format!("{value:.3}"));
         std::iter::once(what.to_owned()).chain(shares.iter().map(|(_, share)| figure(*share))).collect()
     };

@@ -176,9 +176,9 @@ impl Row {
     }
 
     /// How many times as far as the shortest path the robot went, or as hard as the best route; `None` where there is none, or
-    /// where the robot began at its goal.
+    /// where the robot began at its goal, or did not come there.
     pub fn over_optimum(&self) -> Option<f64> {
-        let truth = self.truth.as_ref()?;
+        let truth = self.truth.as_ref().filter(|_| self.ending == "arrived")?;
         if let (Some(cost), Some(least)) = (self.cost, truth.least_cost) {
             return (least > 0.0).then(|| cost / least);
         }
