@@ -2,7 +2,6 @@
 
 mod direct;
 pub(crate) mod explain;
-mod memory;
 
 use std::sync::Arc;
 

@@ -106,44 +106,6 @@ proptest! {
     }
 }
 
-/// Numbers that are compared only, numbers that count whole, and those of which both is so.
-const LOOKED_AT: &str = r#"
-    rule "kept" each o in OBJECTS then { o.kept = o.a < 1.5 && (o.t == "left" || o.a >= -1); }
-    table "band" first
-        each o in OBJECTS
-        given [ o.b, o.p ]
-        set   [ o.band ]
-        rows  [ [ 0, true, "zero" ], [ below(1), any, "low" ], [ any, any, "high" ] ]
-    ;
-    rule "bent" each o in OBJECTS where o.c > 1 then { o.bent = o.c * 2; }
-    rule "told" each o in OBJECTS where o.a > 0 then { o.d = 7; }
-"#;
-
-proptest! {
-    #![proptest_config(ProptestConfig { cases: 32, ..ProptestConfig::default() })]
-
-    /// Of a thousand objects most look like one before.
-    #[test]
-    fn what_was_said_of_an_object_is_said_of_another_only_where_rules_cannot_tell_them_apart(
-        cases in prop::collection::vec(cases(), 300)
-    ) {
-        const OUTPUTS: [&str; 4] = ["kept", "band", "bent", "d"];
-        let mut direct = Consultation::new(rules(LOOKED_AT).into(), "OBJECTS", &INPUTS, &OUTPUTS).unwrap();
-        let whole = format!("{LOOKED_AT}{NOT_DIRECT}");
-        let mut inferring = Consultation::new(rules(&whole).into(), "OBJECTS", &INPUTS, &OUTPUTS).unwrap();
-        inferring.assert(others()).unwrap();
-        prop_assert!(direct.is_direct() && !inferring.is_direct());
-        for ([a, b, c, d], t, p) in cases.into_iter().flatten() {
-            let object = [a.into(), b.into(), c.into(), d.into(), t.into(), p.into()];
-            direct.consult(&object);
-            inferring.consult(&object);
-            for (output, name) in OUTPUTS.iter().enumerate() {
-                prop_assert_eq!(direct.value(output), inferring.value(output), "{} of {:?}", name, object);
-            }
-        }
-    }
-}
-
 #[test]
 fn values_of_another_type_are_unknown_and_inputs_left_out_too() {
     let text = r#"rule "double" each o in OBJECTS then { o.double = o.a * 2; o.known = known(o.b); }"#;

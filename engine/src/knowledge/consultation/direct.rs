@@ -1,6 +1,5 @@
 //! The rules of one class, run for one object without the bookkeeping of an inference.
 
-use super::memory::{Looks, Memory};
 use crate::knowledge::KnowledgeBase;
 use crate::knowledge::derived::{Heard, heard};
 use crate::machine::scalar::{Object, Scalar, Written};
@@ -25,8 +24,6 @@ pub(super) struct Direct {
     /// The properties of the object, as far as they are known yet.
     cells: Vec<Cell>,
     slots: Written,
-    /// What was said before, while that helps.
-    memory: Option<Memory>,
 }
 
 #[derive(Debug)]
@@ -125,27 +122,13 @@ impl Direct {
             }
         }
         let told = &base.held.get(class)?.table;
-        let inputs: Vec<Type> =
-            inputs.iter().map(|name| Some(told.column(name)?.kind())).collect::<Option<_>>()?;
-        let outputs: Vec<Option<usize>> =
-            outputs.iter().map(|name| properties.iter().position(|known| *known == name.property)).collect();
-        let mut looks = Looks::default();
-        for running in &running {
-            let planned = base.network.nodes[running.rule].planned.as_ref()?;
-            looks.note(&planned.plan, &running.columns);
-        }
-        // what is told of a property that rules set, too, counts to the bit, and so does what is told and asked for
-        let set = steps.iter().filter_map(|step| match step {
-            Do::Merge(Merge { property, .. }) | Do::Level { property, .. } => Some(*property),
-            Do::Run(_) => None,
-        });
-        set.chain(outputs.iter().flatten().copied()).for_each(|property| looks.whole(property));
+        let inputs = inputs.iter().map(|name| Some(told.column(name)?.kind()));
+        let outputs = outputs.iter().map(|name| properties.iter().position(|known| *known == name.property));
         Some(Self {
-            outputs,
+            outputs: outputs.collect(),
             steps,
             rules: running,
-            memory: Some(Memory::new(looks, inputs.len())),
-            inputs,
+            inputs: inputs.collect::<Option<_>>()?,
             cells: vec![Cell::Unknown; properties.len()],
             slots: Written::default(),
         })
@@ -177,13 +160,6 @@ impl Direct {
                 *place = cell;
             }
         }
-        if self.memory.as_mut().is_some_and(Memory::is_idle) {
-            self.memory = None;
-        }
-        if let Some(known) = self.memory.as_mut().and_then(|memory| memory.recall(&self.cells)) {
-            answers.copy_from_slice(known);
-            return;
-        }
         for step in &self.steps {
             match step {
                 Do::Run(number) => {
@@ -213,9 +189,6 @@ impl Direct {
         }
         for (answer, place) in answers.iter_mut().zip(&self.outputs) {
             *answer = place.map_or(Cell::Unknown, |place| self.cells[place]);
-        }
-        if let Some(memory) = &mut self.memory {
-            memory.keep(answers);
         }
     }
 }
