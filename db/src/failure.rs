@@ -53,15 +53,30 @@ pub enum Failure {
         site: String,
     },
     /// Its tables are of another version than this program's.
-    #[error("the sites in {place} have schema version {found}; this program knows version {known}")]
+    #[error("the sites in {place} are of version {found}, and this program knows version {known}: {then}")]
     Version {
         /// Where it is.
         place: String,
         /// The version found.
-        found: i64,
+        found: String,
         /// The one known here.
-        known: i64,
+        known: String,
+        /// What is to be done.
+        then: &'static str,
     },
+    /// What an upgrade has kept of this version is there already.
+    #[error("{place} has a schema `{schema}` already, which an upgrade has kept")]
+    KeptAlready {
+        /// Where it is.
+        place: String,
+        /// Its name.
+        schema: String,
+    },
+    /// Some program has the tables for longer than an upgrade waits.
+    #[error(
+        "another program reads or writes the sites in {0} for longer than is waited for; nothing is changed"
+    )]
+    InUse(String),
     /// Another service writes.
     #[error("another service edits the site `{0}` just now")]
     Held(String),

@@ -15,7 +15,7 @@ pub(crate) const APPLICATION: i64 = 0x4164_6974;
 type Scripts = &'static [&'static str];
 
 /// What a version of the schema changes.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Step {
     /// In every database.
     pub(crate) all: Scripts,
@@ -125,16 +125,26 @@ pub(crate) async fn kind(connection: &mut SqliteConnection) -> Result<Kind> {
 /// beside itself first.
 pub(crate) async fn migrate(connection: &mut SqliteConnection, path: &Path, steps: &[Step]) -> Result<()> {
     let known = steps.len() as i64;
-    let made = match kind(connection).await? {
-        Kind::Other => return Err(Error::NotAdit(path.to_owned())),
+    match kind(connection).await? {
         Kind::Adit(found) if found > known => {
             return Err(Error::Newer { path: path.to_owned(), found, known });
         }
-        Kind::Adit(found) if found < known => {
-            backup::before_migration(connection, path, found).await?;
-            made_by(steps).await?
-        }
-        Kind::Adit(_) => return Ok(()),
+        Kind::Adit(found) if found < known => backup::before_migration(connection, path, found).await?,
+        Kind::Adit(_) | Kind::Empty | Kind::Other => {}
+    }
+    migrate_in_place(connection, path, steps).await
+}
+
+/// As [`migrate`], without a copy: of a database of which there is another one.
+pub(crate) async fn migrate_in_place(
+    connection: &mut SqliteConnection,
+    path: &Path,
+    steps: &[Step],
+) -> Result<()> {
+    let made = match kind(connection).await? {
+        Kind::Other => return Err(Error::NotAdit(path.to_owned())),
+        Kind::Adit(found) if found == steps.len() as i64 => return Ok(()),
+        Kind::Adit(_) => made_by(steps).await?,
         Kind::Empty => vec![Made::default(); steps.len()],
     };
     for (index, (step, made)) in steps.iter().zip(&made).enumerate() {
@@ -166,13 +176,17 @@ async fn take(
     Ok(())
 }
 
-/// Has a database of the newest version keep worlds from now on.
-pub(crate) async fn keep_worlds(connection: &mut SqliteConnection, path: &Path) -> Result<()> {
+/// Has a database that is up to the last of `steps` keep worlds from now on.
+pub(crate) async fn keep_worlds(
+    connection: &mut SqliteConnection,
+    path: &Path,
+    steps: &[Step],
+) -> Result<()> {
     let mut transaction = connection.begin_with("BEGIN IMMEDIATE").await?;
     if worlds::are_kept(&mut transaction).await? {
         return Ok(());
     }
-    for (step, made) in STEPS.iter().zip(made_by(STEPS).await?) {
+    for (step, made) in steps.iter().zip(made_by(steps).await?) {
         run(&mut transaction, path, step.worlds, &made.for_worlds).await?;
     }
     transaction.commit().await?;

@@ -21,6 +21,7 @@ mod replica;
 mod rows;
 mod schema;
 mod tables;
+mod upgrade;
 mod upkeep;
 
 pub use crate::failure::Failure;
@@ -30,3 +31,4 @@ pub use place::Place;
 pub use replica::{Entry, Replica};
 pub(crate) use rows::{Leaving, copy_in};
 pub use rows::{copy_out, sites};
+pub use upgrade::{Upgraded, upgrade};

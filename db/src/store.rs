@@ -64,7 +64,7 @@ impl Store {
     pub fn open_for_worlds(path: impl AsRef<Path>) -> Result<Self> {
         let path = path.as_ref();
         let mut store = Self::writable(path, true, PATIENCE)?;
-        store.run(async |connection| migrate::keep_worlds(connection, path).await)?;
+        store.run(async |connection| migrate::keep_worlds(connection, path, STEPS).await)?;
         Ok(store)
     }
 

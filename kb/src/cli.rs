@@ -37,6 +37,7 @@ mod tell;
 mod test;
 mod tune;
 mod tuning;
+mod upgrade;
 mod watch;
 mod why;
 
@@ -124,6 +125,8 @@ pub enum Verb {
     Serve(serve::ServeArgs),
     /// Copy a site, with its whole history, into PostgreSQL or out of it
     Copy(copy::CopyArgs),
+    /// Bring the sites in a database of PostgreSQL up to this program's version
+    Upgrade(upgrade::UpgradeArgs),
     /// Vehicles that speak VDA 5050 drive the routes of a served site (the program `adit-fleet`)
     Fleet(beside::BesideArgs),
     /// A ROS 2 node that plans routes of a served site, as Nav2's planner and route server do (the program `adit-ros`)
@@ -180,6 +183,7 @@ pub fn run(cli: &Cli) -> ExitCode {
         Verb::Undo(args) => (args.site.json, tune::undo(args).map(|()| 0)),
         Verb::Serve(args) => (args.site.json, serve::run(args).map(|()| 0)),
         Verb::Copy(args) => (args.json, copy::run(args).map(|()| 0)),
+        Verb::Upgrade(args) => (args.json, upgrade::run(args).map(|()| 0)),
         Verb::Fleet(args) => (false, beside::run("fleet", args)),
         Verb::Ros(args) => (false, beside::run("ros", args)),
         Verb::Lsp(args) => (false, lsp::run(args).map(|()| 0)),

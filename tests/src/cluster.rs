@@ -190,7 +190,19 @@ impl Cluster {
         self.psql("adit", sql, database).unwrap_or_else(|said| panic!("{sql}: {said}"))
     }
 
+    /// Runs a script of SQL.
+    pub fn load(&self, script: &Path) {
+        // where the server's user may read it
+        let copy = self.path().join("script.sql");
+        std::fs::copy(script, &copy).expect("the script is there");
+        self.run_psql("adit", ["-f", &copy.display().to_string()], "plant").expect("it runs");
+    }
+
     fn psql(&self, user: &str, sql: &str, database: &str) -> Result<Vec<String>, String> {
+        self.run_psql(user, ["-c", sql], database)
+    }
+
+    fn run_psql(&self, user: &str, [how, what]: [&str; 2], database: &str) -> Result<Vec<String>, String> {
         let port = self.port.to_string();
         let host = self.path().display().to_string();
         let said = self.run(
@@ -207,8 +219,8 @@ impl Cluster {
                 "-XAtq",
                 "-v",
                 "ON_ERROR_STOP=1",
-                "-c",
-                sql,
+                how,
+                what,
             ],
         );
         if !said.status.success() {

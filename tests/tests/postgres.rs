@@ -13,6 +13,8 @@ mod several;
 mod storm;
 #[path = "postgres/thousand.rs"]
 mod thousand;
+#[path = "postgres/upgrade.rs"]
+mod upgrade;
 #[path = "postgres/views.rs"]
 mod views;
 

@@ -1,13 +1,13 @@
 -- Of all sites in one database of PostgreSQL. The tables of a site's database in SQLite follow, each with `site` before its key.
 CREATE SCHEMA IF NOT EXISTS adit;
 
--- The version of the tables: that of SQLite's.
+-- The version of the tables: that of SQLite's, and in two digits behind it the how manieth form of them here.
 CREATE TABLE IF NOT EXISTS adit.version (
   one     bigint PRIMARY KEY CHECK (one = 1),
   version bigint NOT NULL
 );
 
--- entry: the newest of the log. owner, fence, ends: who may write, the how manieth owner that is, and until when.
+-- entry: the newest of the log. owner, fence, until: who may write, the how manieth owner that is, and until when.
 CREATE TABLE IF NOT EXISTS adit.sites (
   site       text PRIMARY KEY,
   entry      bigint NOT NULL,
@@ -15,7 +15,7 @@ CREATE TABLE IF NOT EXISTS adit.sites (
   worlds     boolean NOT NULL,
   owner      text,
   fence      bigint NOT NULL DEFAULT 0,
-  ends       timestamptz
+  until      timestamptz
 );
 
 -- What was changed, in order: rows by their keys, as JSON. NULL: the site was replaced.

@@ -145,47 +145,47 @@ SELECT c.site, c.robot, c.start, c.goal,
   c.distance, c.reason, c.measures
 FROM adit.courses c;
 
+-- A row of a way's door is `part` 1, of the room on this side of it 0, of the last room 2. Doors and rooms are looked up once for each
+-- stop, the other room at a door only where both may have a space, measures only where there are some.
 CREATE VIEW adit.kept_steps AS
 SELECT s.site, s.robot, s.name AS start, e.name AS goal,
   2 * t.hops - 1 + p.part AS step,
-  CASE WHEN p.part = 1 THEN d.kind ELSE 'room' END AS kind,
+  CASE WHEN p.part = 1 THEN t.kind ELSE 'room' END AS kind,
   CASE WHEN p.part = 1 THEN t.door::text ELSE r.name END AS place,
-  CASE WHEN p.part = 1 AND d.kind = 'change'
-    THEN (SELECT n.state FROM adit.rooms n
-          WHERE n.site = s.site AND n.room = CASE d.room1 WHEN coalesce(t.from_room, t.prev) THEN d.room2 ELSE d.room1 END)
+  CASE WHEN p.part = 1 AND t.kind = 'change'
+    THEN (SELECT n.state FROM adit.rooms n WHERE n.site = s.site AND n.room = t.beyond)
     ELSE r.state END AS state,
-  CASE WHEN p.part = 1 THEN d.action ELSE r.action END AS action,
-  CASE WHEN p.part = 1 THEN d.hardness WHEN p.part = 2 AND t.door IS NOT NULL THEN 0.0 ELSE t.leg END AS hardness,
-  CASE WHEN p.part > 0 THEN t.reach + coalesce(d.hardness, 0.0) ELSE t.reach END AS cost,
-  coalesce(t.x, d.x) AS x,
-  coalesce(t.y, d.y) AS y,
+  CASE WHEN p.part = 1 THEN t.action ELSE r.action END AS action,
+  CASE WHEN p.part = 1 THEN t.hardness WHEN p.part = 2 AND t.door IS NOT NULL THEN 0.0 ELSE t.leg END AS hardness,
+  CASE WHEN p.part > 0 THEN t.reach + coalesce(t.hardness, 0.0) ELSE t.reach END AS cost,
+  t.x, t.y,
   CASE WHEN p.part = 2 AND t.door IS NOT NULL THEN NULL ELSE t.heading / 100.0::double precision END AS heading,
   u.name AS rule,
-  CASE WHEN p.part <> 1
+  CASE WHEN p.part <> 1 AND r.space IS NOT NULL
     THEN (SELECT coalesce(o.name, 'space ' || o.space) FROM adit.spaces o WHERE o.site = s.site AND o.space = r.space) END AS space,
-  CASE WHEN p.part = 1 AND d.kind = 'door'
+  CASE WHEN p.part = 1 AND t.kind = 'door' AND r.space IS NOT NULL
     THEN (SELECT coalesce(w.name, 'doorway ' || w.doorway)
-          FROM adit.rooms a
-          JOIN adit.rooms b ON b.site = s.site AND b.room = d.room2
-          JOIN adit.doorways w ON w.site = s.site AND w.space1 = least(a.space, b.space) AND w.space2 = greatest(a.space, b.space)
-          WHERE a.site = s.site AND a.room = d.room1 AND a.space <> b.space
-          ORDER BY (w.x - d.x) * (w.x - d.x) + (w.y - d.y) * (w.y - d.y), w.doorway LIMIT 1) END AS doorway,
+          FROM adit.rooms b
+          JOIN adit.doorways w ON w.site = s.site AND w.space1 = least(r.space, b.space) AND w.space2 = greatest(r.space, b.space)
+          WHERE b.site = s.site AND b.room = t.beyond AND b.space <> r.space
+          ORDER BY (w.x - t.door_x) * (w.x - t.door_x) + (w.y - t.door_y) * (w.y - t.door_y), w.doorway LIMIT 1) END AS doorway,
   NULL::double precision AS z,
-  CASE WHEN p.part = 1 THEN (d.measures::json ->> 'seconds')::double precision
+  CASE WHEN p.part = 1 THEN (t.measures::json ->> 'seconds')::double precision
     WHEN (r.measures::json ->> 'seconds')::double precision = 0.0 OR p.part = 2 AND t.door IS NOT NULL
     THEN 0.0 * (r.measures::json ->> 'seconds')::double precision
     ELSE t.walked * (r.measures::json ->> 'seconds')::double precision END AS seconds,
-  CASE WHEN p.part = 1 THEN (d.measures::json ->> 'joules')::double precision
+  CASE WHEN p.part = 1 THEN (t.measures::json ->> 'joules')::double precision
     WHEN (r.measures::json ->> 'joules')::double precision = 0.0 OR p.part = 2 AND t.door IS NOT NULL
     THEN 0.0 * (r.measures::json ->> 'joules')::double precision
     ELSE t.walked * (r.measures::json ->> 'joules')::double precision END AS joules,
-  (SELECT CASE WHEN count(key) > 0 THEN json_object_agg(key, amount)::text END
-   FROM (SELECT v.key,
-           CASE WHEN p.part = 1 THEN v.value::double precision
-             WHEN v.value::double precision = 0.0 OR p.part = 2 AND t.door IS NOT NULL THEN 0.0
-             ELSE t.walked * v.value::double precision END AS amount
-         FROM json_each_text((CASE p.part WHEN 1 THEN d.measures ELSE r.measures END)::json) AS v (key, value)) AS amounts
-   WHERE amount IS NOT NULL) AS measures
+  CASE WHEN CASE p.part WHEN 1 THEN t.measures ELSE r.measures END IS NOT NULL THEN
+    (SELECT CASE WHEN count(key) > 0 THEN json_object_agg(key, amount)::text END
+     FROM (SELECT v.key,
+             CASE WHEN p.part = 1 THEN v.value::double precision
+               WHEN v.value::double precision = 0.0 OR p.part = 2 AND t.door IS NOT NULL THEN 0.0
+               ELSE t.walked * v.value::double precision END AS amount
+           FROM json_each_text((CASE p.part WHEN 1 THEN t.measures ELSE r.measures END)::json) AS v (key, value)) AS amounts
+     WHERE amount IS NOT NULL) END AS measures
 FROM adit.starts s
 JOIN adit.ends e ON e.site = s.site
 CROSS JOIN LATERAL (
@@ -193,12 +193,16 @@ CROSS JOIN LATERAL (
     SELECT g.* FROM adit.tree_rows g WHERE g.site = s.site AND g.tree = s.tree AND g.node = e.node
     UNION ALL
     SELECT b.* FROM walk JOIN adit.tree_rows b ON b.site = walk.site AND b.tree = walk.tree AND b.node = walk.prev)
-  SELECT * FROM walk) AS t
+  SELECT walk.node, walk.hops, walk.door, walk.leg, walk.reach, walk.heading, walk.walked,
+    coalesce(walk.x, d.x) AS x, coalesce(walk.y, d.y) AS y, d.x AS door_x, d.y AS door_y,
+    coalesce(walk.from_room, walk.prev) AS room,
+    CASE d.room1 WHEN coalesce(walk.from_room, walk.prev) THEN d.room2 ELSE d.room1 END AS beyond,
+    d.kind, d.action, d.hardness, d.hardness_rule, d.measures
+  FROM walk LEFT JOIN adit.doors d ON d.site = s.site AND d.door = walk.door
+  OFFSET 0) AS t
 CROSS JOIN (VALUES (0), (1), (2)) AS p (part)
-LEFT JOIN adit.doors d ON d.site = s.site AND d.door = t.door
-LEFT JOIN adit.rooms r ON r.site = s.site
-  AND r.room = CASE WHEN p.part = 2 AND e.node > 0 THEN e.node ELSE coalesce(t.from_room, t.prev) END
-LEFT JOIN adit.rules u ON u.site = s.site AND u.rule = CASE WHEN p.part = 1 THEN d.hardness_rule ELSE r.action_rule END
+LEFT JOIN adit.rooms r ON r.site = s.site AND r.room = CASE WHEN p.part = 2 AND e.node > 0 THEN e.node ELSE t.room END
+LEFT JOIN adit.rules u ON u.site = s.site AND u.rule = CASE WHEN p.part = 1 THEN t.hardness_rule ELSE r.action_rule END
 WHERE p.part BETWEEN CASE WHEN t.door IS NULL THEN 2 ELSE 0 END AND CASE WHEN t.node = e.node THEN 2 ELSE 1 END
 UNION ALL
 SELECT site, robot, start, goal, step, kind, place, state, action, hardness, cost, x, y, heading, rule, NULL, NULL, z,

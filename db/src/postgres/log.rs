@@ -8,6 +8,7 @@ use super::changes::Changes;
 use super::hint::channel;
 use super::link::{Link, is_collision, is_locked};
 use super::rows;
+use super::schema;
 use super::tables::Template;
 use crate::error::{Error, Result};
 use crate::failure::Failure;
@@ -32,16 +33,21 @@ pub(super) struct Lease {
 
 /// Asks for the right to write; `None` where another has it.
 pub(super) fn acquire(link: &mut Link, site: &str, owner: &str, lasts: Duration) -> Result<Option<Lease>> {
-    let sql = "UPDATE adit.sites SET owner = $2, fence = fence + 1, ends = now() + $3 * interval '1 second'
-               WHERE site = $1 AND (owner IS NULL OR owner = $2 OR ends < now()) RETURNING fence, entry";
+    let sql = "UPDATE adit.sites SET owner = $2, fence = fence + 1, until = now() + $3 * interval '1 second'
+               WHERE site = $1 AND (owner IS NULL OR owner = $2 OR until < now())
+               AND (SELECT version FROM adit.version WHERE one = 1) = $4 RETURNING fence, entry";
     let given: Option<(i64, i64)> = link.again(async |connection| {
         let query = sqlx::query_as(sql).bind(site).bind(owner).bind(lasts.as_secs_f64());
-        match query.fetch_optional(connection).await {
+        match query.bind(schema::KNOWN.number()).fetch_optional(connection).await {
             // another one is at work on it this moment
             Err(error) if is_locked(&error) => Ok(None),
             given => Ok(given?),
         }
     })?;
+    if given.is_none() {
+        // nor is it given to whoever writes rows of another version
+        schema::check(link)?;
+    }
     Ok(given.map(|(fence, entry)| Lease { fence, entry }))
 }
 
@@ -52,7 +58,7 @@ pub(super) fn extend(
     owner: &str,
     (fence, lasts): (i64, Duration),
 ) -> Result<bool> {
-    let sql = "UPDATE adit.sites SET ends = now() + $4 * interval '1 second'
+    let sql = "UPDATE adit.sites SET until = now() + $4 * interval '1 second'
                WHERE site = $1 AND owner = $2 AND fence = $3";
     link.again(async |connection| {
         let query = sqlx::query(sql).bind(site).bind(owner).bind(fence).bind(lasts.as_secs_f64());
@@ -62,7 +68,8 @@ pub(super) fn extend(
 
 /// Gives the right to write up.
 pub(super) fn release(link: &mut Link, site: &str, owner: &str, fence: i64) -> Result<()> {
-    let sql = "UPDATE adit.sites SET owner = NULL, ends = NULL WHERE site = $1 AND owner = $2 AND fence = $3";
+    let sql =
+        "UPDATE adit.sites SET owner = NULL, until = NULL WHERE site = $1 AND owner = $2 AND fence = $3";
     link.again(async |connection| {
         sqlx::query(sql).bind(site).bind(owner).bind(fence).execute(connection).await?;
         Ok(())
@@ -124,7 +131,7 @@ async fn keep(
 ) -> Result<bool> {
     let Draft { site, owner, fence, entry, generation, changes } = *draft;
     sqlx::raw_sql("BEGIN").execute(&mut *connection).await?;
-    let sql = "UPDATE adit.sites SET entry = $4, generation = $5, owner = NULL, ends = NULL
+    let sql = "UPDATE adit.sites SET entry = $4, generation = $5, owner = NULL, until = NULL
                WHERE site = $1 AND owner = $2 AND fence = $3 AND entry = $4 - 1";
     let query = sqlx::query(sql).bind(site).bind(owner).bind(fence).bind(entry).bind(generation);
     if query.execute(&mut *connection).await?.rows_affected() != 1 {

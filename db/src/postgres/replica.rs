@@ -12,7 +12,6 @@ use super::link::Link;
 use super::log::{self, Draft, Lease};
 use super::place::Place;
 use super::rows;
-use super::schema;
 use super::tables::Template;
 use super::upkeep::Upkeep;
 use crate::error::{Error, Result};
@@ -87,9 +86,8 @@ impl Replica {
         lasts: Duration,
     ) -> Result<Self> {
         let mut link = Link::new(place)?;
-        schema::check(&mut link)?;
         let (template, whole) = rows::snapshot(&mut link, site)?;
-        whole.make(file)?;
+        whole.make(&template, file)?;
         let upkeep = Upkeep::start(place, (site, owner), lasts)?;
         let mut replica = Self {
             link,

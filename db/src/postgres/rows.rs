@@ -17,8 +17,10 @@ use crate::connection::{self, Connection};
 use crate::dynamic::identifier;
 use crate::error::{Error, Result};
 use crate::failure::Failure;
-use crate::migrate::{self, STEPS};
 use crate::worlds;
+
+/// The schema of PostgreSQL in which all of it is.
+pub(super) const SCHEMA: &str = "adit";
 
 /// Rows that one statement takes.
 const ROWS: usize = 5_000;
@@ -47,9 +49,9 @@ pub(super) fn unknown(link: &mut Link, site: &str) -> Error {
 
 /// All that a database holds of a site, on its way into PostgreSQL.
 pub(crate) struct Leaving {
-    template: Template,
-    changes: Changes,
-    generation: i64,
+    pub(super) template: Template,
+    pub(super) changes: Changes,
+    pub(super) generation: i64,
 }
 
 impl Leaving {
@@ -73,7 +75,6 @@ pub(crate) fn copy_in(
     let mut link = Link::new(place)?;
     let all = link.apart(async { Template::new(true).await })?;
     schema::make(&mut link, &all)?;
-    let keeps_worlds = template.keeps_worlds();
     changes.files = files.to_vec();
     let exists = Failure::SiteExists { place: place.shown(), site: site.to_owned() };
     let tables: Vec<Table> = all.tables.values().cloned().collect();
@@ -96,19 +97,38 @@ pub(crate) fn copy_in(
         for table in ["own_rows", "files", "log"] {
             clear(connection, table, site).await?;
         }
-        write(connection, site, &template, &changes).await?;
-        let entry = there.unwrap_or(0) + 1;
-        let sql = "INSERT INTO adit.sites (site, entry, generation, worlds, fence) VALUES ($1, $2, $3, $4, 0)
-                   ON CONFLICT (site) DO UPDATE SET entry = excluded.entry, generation = excluded.generation,
-                   worlds = excluded.worlds, owner = NULL, ends = NULL, fence = adit.sites.fence + 1";
-        let row = sqlx::query(sql).bind(site).bind(entry).bind(generation).bind(keeps_worlds);
-        row.execute(&mut *connection).await?;
-        let sql = "INSERT INTO adit.log (site, entry, generation, owner, fence, changes) VALUES ($1, $2, $3, '', 0, NULL)";
-        sqlx::query(sql).bind(site).bind(entry).bind(generation).execute(&mut *connection).await?;
+        let head = Head { entry: there.unwrap_or(0) + 1, fence: 0, generation };
+        put_whole(connection, site, &template, &changes, head).await?;
         sqlx::raw_sql("COMMIT").execute(&mut *connection).await?;
         Ok(true)
     })?;
     if put { Ok(()) } else { Err(exists.into()) }
+}
+
+/// Where a site is: the newest entry of its log, the number of its owner at least, and its generation.
+pub(super) struct Head {
+    pub entry: i64,
+    pub fence: i64,
+    pub generation: i64,
+}
+
+/// Writes all of a site, of which no row is there, and that it was replaced.
+pub(super) async fn put_whole(
+    connection: &mut PgConnection,
+    site: &str,
+    template: &Template,
+    changes: &Changes,
+    Head { entry, fence, generation }: Head,
+) -> Result<()> {
+    write(connection, site, template, changes).await?;
+    let sql = "INSERT INTO adit.sites (site, entry, generation, worlds, fence) VALUES ($1, $2, $3, $4, $5)
+               ON CONFLICT (site) DO UPDATE SET entry = excluded.entry, generation = excluded.generation,
+               worlds = excluded.worlds, owner = NULL, until = NULL, fence = adit.sites.fence + 1";
+    let row = sqlx::query(sql).bind(site).bind(entry).bind(generation).bind(template.keeps_worlds());
+    row.bind(fence).execute(&mut *connection).await?;
+    let sql = "INSERT INTO adit.log (site, entry, generation, owner, fence, changes) VALUES ($1, $2, $3, '', 0, NULL)";
+    sqlx::query(sql).bind(site).bind(entry).bind(generation).execute(connection).await?;
+    Ok(())
 }
 
 /// Makes a database of a site that is in PostgreSQL.
@@ -120,38 +140,33 @@ pub(crate) fn copy_in(
 /// The site's files.
 pub fn copy_out(place: &Place, site: &str, file: &Path) -> Result<Vec<File>> {
     let mut link = Link::new(place)?;
-    schema::check(&mut link)?;
-    let (_, whole) = snapshot(&mut link, site)?;
-    whole.make(file)?;
+    let (template, whole) = snapshot(&mut link, site)?;
+    whole.make(&template, file)?;
     Ok(whole.changes.files)
 }
 
 /// A whole site, as it was at one entry of its log.
 pub(super) struct Whole {
     pub entry: i64,
-    pub worlds: bool,
     pub changes: Changes,
 }
 
 impl Whole {
-    /// Makes a database of it.
-    pub(super) fn make(&self, file: &Path) -> Result<()> {
+    /// Makes a database of it, of the template's version.
+    pub(super) fn make(&self, template: &Template, file: &Path) -> Result<()> {
         let options = connection::options(file, std::time::Duration::from_secs(5))?.create_if_missing(true);
         let mut connection = Connection::open(file, &options)?;
-        connection.run(async |connection| {
-            migrate::migrate(connection, file, STEPS).await?;
-            if self.worlds { migrate::keep_worlds(connection, file).await } else { Ok(()) }
-        })?;
+        connection.run(async |connection| template.make(connection, file).await)?;
         connection.execute("BEGIN IMMEDIATE")?;
-        connection.run(async |connection| {
-            capture::fill(connection, Template::new(self.worlds).await?, &self.changes).await
-        })?;
+        connection
+            .run(async |connection| capture::fill(connection, template.clone(), &self.changes).await)?;
         connection.execute("COMMIT")
     }
 }
 
 /// Reads a whole site, all of it at one moment.
 pub(super) fn snapshot(link: &mut Link, site: &str) -> Result<(Template, Whole)> {
+    schema::check(link)?;
     link.whole(true);
     let read = link.again(async |connection| {
         sqlx::raw_sql("BEGIN ISOLATION LEVEL REPEATABLE READ READ ONLY").execute(&mut *connection).await?;
@@ -161,8 +176,8 @@ pub(super) fn snapshot(link: &mut Link, site: &str) -> Result<(Template, Whole)>
         let read = match head {
             Some((entry, worlds)) => {
                 let template = Template::new(worlds).await?;
-                let changes = read(connection, site, &template).await?;
-                Some((template, Whole { entry, worlds, changes }))
+                let changes = read(connection, SCHEMA, site, &template).await?;
+                Some((template, Whole { entry, changes }))
             }
             None => None,
         };
@@ -334,12 +349,18 @@ async fn put_own(connection: &mut PgConnection, site: &str, table: &str, rows: &
     Ok(())
 }
 
-async fn read(connection: &mut PgConnection, site: &str, template: &Template) -> Result<Changes> {
+/// Reads the rows of a site in a schema of PostgreSQL.
+pub(super) async fn read(
+    connection: &mut PgConnection,
+    schema: &str,
+    site: &str,
+    template: &Template,
+) -> Result<Changes> {
     let mut changes = Changes::default();
     for (name, table) in template.tables.iter().filter(|(_, table)| table.ours) {
         let columns = table.read();
         let sql = format!(
-            "SELECT {} FROM adit.{} WHERE site = $1 ORDER BY {}",
+            "SELECT {} FROM {schema}.{} WHERE site = $1 ORDER BY {}",
             Table::list("", columns.iter().copied()),
             identifier(name),
             Table::list("", table.key.iter().map(String::as_str))
@@ -352,9 +373,12 @@ async fn read(connection: &mut PgConnection, site: &str, template: &Template) ->
         }
         changes.tables.insert(name.clone(), Rows { whole: true, now, ..Rows::default() });
     }
-    let sql = "SELECT table_name, row FROM adit.own_rows WHERE site = $1";
+    let whole_of = |columns: &str, table: &str| {
+        AssertSqlSafe(format!("SELECT {columns} FROM {schema}.{table} WHERE site = $1 ORDER BY 1"))
+    };
+    let sql = whole_of("table_name, row", "own_rows");
     let own: Vec<(String, String)> = sqlx::query_as(sql).bind(site).fetch_all(&mut *connection).await?;
-    let sql = "SELECT kind, name, of_table, sql FROM adit.own_objects WHERE site = $1";
+    let sql = whole_of("kind, name, of_table, sql", "own_objects");
     let objects: Vec<(String, String, String, String)> =
         sqlx::query_as(sql).bind(site).fetch_all(&mut *connection).await?;
     let mut objects: Vec<Object> =
@@ -373,9 +397,9 @@ async fn read(connection: &mut PgConnection, site: &str, template: &Template) ->
         changes.tables.entry(table).or_insert_with(whole).now.push(row);
     }
     changes.objects = Some(objects);
-    let sql = "SELECT name, last FROM adit.sequences WHERE site = $1 ORDER BY name";
+    let sql = whole_of("name, last", "sequences");
     changes.sequences = Some(sqlx::query_as(sql).bind(site).fetch_all(&mut *connection).await?);
-    let sql = "SELECT path, bytes FROM adit.files WHERE site = $1 ORDER BY path";
+    let sql = whole_of("path, bytes", "files");
     let files: Vec<(String, Vec<u8>)> = sqlx::query_as(sql).bind(site).fetch_all(connection).await?;
     changes.files = files.into_iter().map(|(path, bytes)| File { path, bytes: Some(bytes) }).collect();
     Ok(changes)

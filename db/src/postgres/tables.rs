@@ -2,6 +2,7 @@
 //! in PostgreSQL, too.
 
 use std::collections::BTreeMap;
+use std::path::Path;
 use std::sync::OnceLock;
 
 use sqlx::{Connection, Row, SqliteConnection};
@@ -9,7 +10,7 @@ use sqlx::{Connection, Row, SqliteConnection};
 use super::changes::Object;
 use crate::dynamic::identifier;
 use crate::error::Result;
-use crate::migrate::{self, STEPS};
+use crate::migrate::{self, STEPS, Step};
 
 /// Tables that follow from others, or are the same in every database: each copy has its own.
 const OF_EACH_COPY: [&str; 4] = ["blocks", "octets", "step_parts", "writer"];
@@ -97,6 +98,8 @@ pub(super) struct Template {
     pub tables: BTreeMap<String, Table>,
     names: Vec<(String, String)>,
     worlds: bool,
+    /// What leads to its version.
+    steps: &'static [Step],
 }
 
 impl Template {
@@ -108,23 +111,26 @@ impl Template {
         if let Some(known) = known.get() {
             return Ok(known.clone());
         }
-        let made = Self::make(worlds).await?;
+        let made = Self::of(STEPS, worlds).await?;
         Ok(known.get_or_init(|| made).clone())
     }
 
-    async fn make(worlds: bool) -> Result<Self> {
+    /// Of the version to which these steps lead.
+    pub(super) async fn of(steps: &'static [Step], worlds: bool) -> Result<Self> {
         let mut empty = SqliteConnection::connect("sqlite::memory:").await?;
-        let nowhere = std::path::Path::new("");
-        migrate::migrate(&mut empty, nowhere, STEPS).await?;
-        if worlds {
-            migrate::keep_worlds(&mut empty, nowhere).await?;
-        }
+        let none = Self { tables: BTreeMap::new(), names: Vec::new(), worlds, steps };
+        none.make(&mut empty, Path::new("")).await?;
         let sql = "SELECT type, name FROM sqlite_schema";
         let names = sqlx::query_as(sql).fetch_all(&mut empty).await?;
-        let none = Self { tables: BTreeMap::new(), names, worlds };
         let tables = none.described(&mut empty, true).await?;
         empty.close().await?;
-        Ok(Self { tables, ..none })
+        Ok(Self { tables, names, ..none })
+    }
+
+    /// Makes of a new database one of its version.
+    pub(super) async fn make(&self, connection: &mut SqliteConnection, file: &Path) -> Result<()> {
+        migrate::migrate(connection, file, self.steps).await?;
+        if self.worlds { migrate::keep_worlds(connection, file, self.steps).await } else { Ok(()) }
     }
 
     /// The tables of a database whose rows are shared.

@@ -229,6 +229,8 @@ codes! {
     PostgresUnknownSite = "postgres/unknown-site", NOT_FOUND;
     /// PostgreSQL cannot be reached; edits are made again when it can.
     PostgresUnreachable = "postgres/unreachable", SERVICE_UNAVAILABLE;
+    /// An upgrade in PostgreSQL has to wait: what an earlier one kept is there, or a program holds the tables.
+    PostgresUpgrade = "postgres/upgrade", CONFLICT;
     /// It is no URL of a PostgreSQL database.
     PostgresUrl = "postgres/url", BAD_REQUEST;
     /// The sites in PostgreSQL are of another version of the program.
@@ -570,6 +572,7 @@ impl From<&Failure> for Code {
             Failure::Rights { .. } => Self::PostgresRights,
             Failure::NoSites(_) | Failure::UnknownSite { .. } => Self::PostgresUnknownSite,
             Failure::SiteExists { .. } => Self::PostgresSiteExists,
+            Failure::InUse(_) | Failure::KeptAlready { .. } => Self::PostgresUpgrade,
             Failure::Version { .. } => Self::PostgresVersion,
             Failure::Held(_) => Self::PostgresHeld,
             Failure::Fenced(_) => Self::PostgresFenced,

@@ -81,7 +81,7 @@ fn a_holder_that_was_paused_cannot_commit_what_it_began() {
     let (mut old, mut new) = (Copy::lasting(&cluster, "old", NOT_KEPT_UP), Copy::of(&cluster, "new"));
     assert!(old.store.lead().unwrap());
     // a paused holder keeps nothing up, and this is how that looks to others
-    cluster.ask("UPDATE adit.sites SET ends = now() - interval '1 second' WHERE site = 'paper'");
+    cluster.ask("UPDATE adit.sites SET until = now() - interval '1 second' WHERE site = 'paper'");
     let done = old.store.transaction(|tx| -> Result<(), Error> {
         tx.set_site_value("test", Some("old"))?;
         assert!(new.store.lead().unwrap(), "its time is over");

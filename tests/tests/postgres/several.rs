@@ -94,7 +94,7 @@ fn a_service_that_is_killed_at_work_keeps_nobody_from_editing_for_long() {
     let (one, other) = (Served::start(&cluster.url("paper")), Served::start(&cluster.url("paper")));
     one.edit(&squat(2.0));
     // as if it had been killed in the midst of an edit
-    cluster.ask("UPDATE adit.sites SET owner = 'one', fence = fence + 1, ends = now() + interval '3 seconds' WHERE site = 'paper'");
+    cluster.ask("UPDATE adit.sites SET owner = 'one', fence = fence + 1, until = now() + interval '3 seconds' WHERE site = 'paper'");
     one.service.kill();
     let began = std::time::Instant::now();
     other.edit(&squat(3.0));
