@@ -137,7 +137,7 @@ fn who_does_not_read_is_hung_up_on() {
 
 /// How many connections the service at an address has taken and not closed. Those that it has itself to a database
 /// come and go, and are no caller's.
-fn open_connections(address: &str) -> usize {
+pub fn open_connections(address: &str) -> usize {
     let port = address.parse::<std::net::SocketAddr>().unwrap().port();
     let local = format!(":{port:04X}");
     let all = std::fs::read_to_string("/proc/net/tcp").unwrap();
@@ -147,7 +147,7 @@ fn open_connections(address: &str) -> usize {
 }
 
 /// A question in SQL, of which no answer is read; of so many bytes, if more are announced than sent.
-fn send(address: &str, token: &str, body: &str, announced: Option<usize>) -> TcpStream {
+pub fn send(address: &str, token: &str, body: &str, announced: Option<usize>) -> TcpStream {
     let mut stream = TcpStream::connect(address).unwrap();
     let length = announced.unwrap_or(body.len());
     write!(

@@ -8,6 +8,7 @@ mod follows;
 mod late;
 pub mod rules;
 mod shares;
+mod soak;
 
 use std::time::{Duration, Instant};
 
