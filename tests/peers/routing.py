@@ -25,9 +25,13 @@ def starts(graph, keep):
     return list(dict.fromkeys(start for start, _ in pairs(graph)))[:keep]
 
 
-def measure(graph, keep, site):
+def questions(graph, keep):
     kept = starts(graph, keep)
-    asked = [(kept[i % len(kept)], goal) for i, (_, goal) in enumerate(pairs(graph)[:PAIRS])]
+    return [(kept[i % len(kept)], goal) for i, (_, goal) in enumerate(pairs(graph)[:PAIRS])]
+
+
+def measure(graph, keep, site):
+    asked = questions(graph, keep)
     view = sqlite3.connect(f"file:{site}?mode=ro", uri=True)
     net = sqlite3.connect(graph + "/spatialite.db")
     net.enable_load_extension(True)
@@ -58,7 +62,8 @@ def measure(graph, keep, site):
     os._exit(0)  # the module is known to crash when it is unloaded
 
 
-if sys.argv[1] == "starts":
-    print(*starts(sys.argv[2], int(sys.argv[3])))
-else:
-    measure(sys.argv[2], int(sys.argv[3]), sys.argv[4])
+if __name__ == "__main__":
+    if sys.argv[1] == "starts":
+        print(*starts(sys.argv[2], int(sys.argv[3])))
+    else:
+        measure(sys.argv[2], int(sys.argv[3]), sys.argv[4])

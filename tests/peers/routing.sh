@@ -11,19 +11,10 @@ cd "$HERE/../.."
 . tests/peers/common
 [ -z "$smallest" ] || SIZES=1000
 SIZES=${SIZES:-1000 10000 100000}
-[ -f "$PEERS/gen.py" ] || skip "$PEERS is missing, so there is no graph"
-"$GEN_PYTHON" -c "import numpy, scipy" 2> /dev/null || skip "$GEN_PYTHON has no numpy and scipy, so there is no graph"
 "$PYTHON" -c "import sqlite3; c = sqlite3.connect(':memory:'); c.enable_load_extension(True); c.load_extension('mod_spatialite')" \
     2> /dev/null || skip "$PYTHON cannot load SpatiaLite (Debian's package libsqlite3-mod-spatialite)"
-build adit-db --example load_graph
-LOAD=$built/examples/load_graph
 for n in $SIZES; do
-  [ -f "$WORK/g/$n/doors.u32" ] || "$GEN_PYTHON" "$PEERS/gen.py" "$WORK/g" "$n"
-  rm -f "$WORK/site-$n.db"
-  keep=$(( n <= 1000 ? 200 : n <= 10000 ? 50 : 5 ))
-  starts=$("$PYTHON" "$HERE/routing.py" starts "$WORK/g/$n" $keep)
-  # shellcheck disable=SC2086
-  "$LOAD" "$WORK/g/$n/doors.u32" "$n" "$WORK/site-$n.db" $starts
+  graph "$n"
   # makes spatialite.db; its own figures come without a second tool between them
   BUDGET=1 "$PYTHON" "$PEERS/bench.py" spatialite "$WORK/g" "$n" > /dev/null
   "$PYTHON" "$HERE/routing.py" measure "$WORK/g/$n" "$keep" "$WORK/site-$n.db"

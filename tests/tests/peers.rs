@@ -11,7 +11,7 @@ fn runs(script: &str, words: &[&str]) {
     let work = tempfile::tempdir().expect("a temporary folder");
     let mut bash = Command::new("bash");
     bash.arg(repository().join("tests/peers").join(script));
-    if script == "routing.sh" {
+    if ["routing.sh", "postgres.sh"].contains(&script) {
         let shared =
             std::env::var_os("ADIT_SHARED").map_or_else(|| repository().join("../shared"), Into::into);
         bash.arg(shared.join("peers/routing"));
@@ -53,6 +53,11 @@ fn routing() {
 }
 
 #[test]
+fn postgres() {
+    runs("postgres.sh", &["1000 rooms: a stored route"]);
+}
+
+#[test]
 fn planning() {
     runs("planning.sh", &["RRTConnect", "assembly: length"]);
 }
@@ -65,6 +70,11 @@ fn adapt() {
 #[test]
 fn serve() {
     runs("serve.sh", &["a saved cell, in the next answer", "median ratio"]);
+}
+
+#[test]
+fn crowd() {
+    runs("crowd.sh", &["routes: p99 alone", "maps: p99 alone"]);
 }
 
 #[test]
