@@ -47,7 +47,7 @@ pub use diagnostic::{Code, Diagnostic, Diagnostics, Severity};
 pub use knowledge::KnowledgeBase;
 pub use knowledge::ask::{Answer, Question};
 pub use knowledge::consultation::explain::{Considered, Miss};
-pub use knowledge::consultation::{Consultation, Datum};
+pub use knowledge::consultation::{Consultation, Datum, Grain};
 pub use knowledge::dominated::Dominated;
 pub use knowledge::facts::FactError;
 pub use knowledge::misspelt::Misspelt;

@@ -2,6 +2,7 @@
 
 mod direct;
 pub(crate) mod explain;
+mod grain;
 
 use std::sync::Arc;
 
@@ -12,6 +13,7 @@ use crate::rule::PropertyName;
 use crate::rule_base::RuleBase;
 use crate::value::{Cell, Type, Value};
 use direct::Direct;
+pub use grain::Grain;
 
 /// A value of a case; it borrows its text.
 // The wide tag makes it quick to copy, as with `Cell`.
@@ -126,6 +128,12 @@ impl Consultation {
     /// Whether the rules of the class look at one object alone, so that no inference is needed.
     pub const fn is_direct(&self) -> bool {
         self.direct.is_some()
+    }
+
+    /// How closely the rules look at each input, in their order: who is asked about many objects need not ask about those that
+    /// are alike to the rules. `None` where they look at other objects, too.
+    pub fn grains(&self) -> Option<&[Grain]> {
+        self.direct.as_ref().map(|direct| direct.grains.as_slice())
     }
 
     pub fn rules(&self) -> Arc<RuleBase> {

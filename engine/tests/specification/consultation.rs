@@ -1,6 +1,8 @@
 //! A consultation gives for one object what an inference over a class of that one object gives.
 
-use adit_engine::{Class, Consultation, Datum, KnowledgeBase, Type, Value};
+use std::collections::HashMap;
+
+use adit_engine::{Class, Consultation, Datum, Grain, KnowledgeBase, Type, Value};
 use proptest::prelude::*;
 
 use crate::support::rules;
@@ -104,6 +106,64 @@ proptest! {
             prop_assert_eq!(judged(&mut inferring, case), from_scratch(&whole, case));
         }
     }
+}
+
+/// Numbers that are compared only, numbers that count whole, and those of which both is so.
+const LOOKED_AT: &str = r#"
+    rule "kept" each o in OBJECTS then { o.often = o.a < 1.5 && (o.t == "left" || o.a >= -1); }
+    table "band" first
+        each o in OBJECTS
+        given [ o.b, o.p ]
+        set   [ o.row ]
+        rows  [ [ 0, true, 1 ], [ below(1), any, 2 ], [ any, any, 3 ] ]
+    ;
+    rule "bent" each o in OBJECTS where o.c > 1 then { o.sum = o.c * 2; }
+    rule "told" each o in OBJECTS where o.a > 0 then { o.last = 7; }
+"#;
+
+/// An object as far as rules can tell it from others.
+fn looks(([a, b, c, d], t, p): Case, grains: &[Grain]) -> String {
+    let number = |number: Option<f64>, grain: &Grain| match (number, grain) {
+        (_, Grain::Nothing) => String::new(),
+        (Some(number), Grain::Among(known)) => {
+            format!("{:?}", known.iter().map(|known| number.partial_cmp(known)).collect::<Vec<_>>())
+        }
+        (number, _) => format!("{number:?}"),
+    };
+    let numbers = [a, b, c, d].into_iter().zip(grains).map(|(value, grain)| number(value, grain));
+    format!("{:?} {t:?} {p:?}", numbers.collect::<Vec<_>>())
+}
+
+proptest! {
+    #[test]
+    fn objects_are_judged_alike_that_rules_cannot_tell_apart(
+        cases in prop::collection::vec(cases(), 40)
+    ) {
+        for text in [DIRECT, LOOKED_AT] {
+            let mut direct = Consultation::new(rules(text).into(), "OBJECTS", &INPUTS, &OUTPUTS).unwrap();
+            let grains = direct.grains().unwrap().to_vec();
+            let mut said = HashMap::new();
+            for case in cases.iter().flatten() {
+                let now = judged(&mut direct, *case);
+                let before = said.entry(looks(*case, &grains)).or_insert_with(|| now.clone());
+                prop_assert_eq!(&now, before, "{:?}", case);
+            }
+        }
+    }
+}
+
+#[test]
+fn of_what_rules_look_at_it_is_told_how_closely() {
+    let grains = |text: &str| {
+        let consultation = Consultation::new(rules(text).into(), "OBJECTS", &INPUTS, &OUTPUTS).unwrap();
+        consultation.grains().map(<[Grain]>::to_vec)
+    };
+    // of what a table is given all counts, and so does "d", which is asked for
+    let compared = Grain::Among(vec![-1.0, 0.0, 1.5]);
+    let [b, c, d, t, p] = [const { Grain::Whole }; 5];
+    assert_eq!(grains(LOOKED_AT), Some(vec![compared, b, c, d, t, p]));
+    assert_eq!(grains(r#"rule "none" each o in OBJECTS then { o.sum = 1; }"#).unwrap()[0], Grain::Nothing);
+    assert_eq!(grains(NOT_DIRECT), None);
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! The rules of one class, run for one object without the bookkeeping of an inference.
 
+use super::grain::{Grain, Looks};
 use crate::knowledge::KnowledgeBase;
 use crate::knowledge::derived::{Heard, heard};
 use crate::machine::scalar::{Object, Scalar, Written};
@@ -19,6 +20,8 @@ pub(super) struct Direct {
     rules: Vec<Running>,
     /// The types of the inputs, which are the first of the properties.
     inputs: Vec<Type>,
+    /// How closely the rules look at each of them.
+    pub(super) grains: Vec<Grain>,
     /// Where each output stands; `None` is never known.
     outputs: Vec<Option<usize>>,
     /// The properties of the object, as far as they are known yet.
@@ -122,13 +125,26 @@ impl Direct {
             }
         }
         let told = &base.held.get(class)?.table;
-        let inputs = inputs.iter().map(|name| Some(told.column(name)?.kind()));
-        let outputs = outputs.iter().map(|name| properties.iter().position(|known| *known == name.property));
+        let inputs: Vec<Type> =
+            inputs.iter().map(|name| Some(told.column(name)?.kind())).collect::<Option<_>>()?;
+        let outputs: Vec<Option<usize>> =
+            outputs.iter().map(|name| properties.iter().position(|known| *known == name.property)).collect();
+        let mut looks = Looks::default();
+        for running in &running {
+            looks.note(&base.network.nodes[running.rule].planned.as_ref()?.plan, &running.columns);
+        }
+        // what is told of a property that rules set, or that is asked for, may be what they say of it
+        let set = steps.iter().filter_map(|step| match step {
+            Do::Merge(Merge { property, .. }) | Do::Level { property, .. } => Some(*property),
+            Do::Run(_) => None,
+        });
+        set.chain(outputs.iter().flatten().copied()).for_each(|property| looks.whole(property));
         Some(Self {
-            outputs: outputs.collect(),
+            grains: looks.grains(inputs.len()),
+            outputs,
             steps,
             rules: running,
-            inputs: inputs.collect::<Option<_>>()?,
+            inputs,
             cells: vec![Cell::Unknown; properties.len()],
             slots: Written::default(),
         })
