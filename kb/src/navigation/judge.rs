@@ -12,7 +12,7 @@ use adit_planners::navigation::{Action, Judge, Mode, State, StateDecision, State
 use super::told::{self, Told};
 use crate::error::{Code, Error, Result};
 use crate::plan::consult::Of::{Number, Perhaps, Text, Truth};
-use crate::plan::consult::{Class, Property, consult, meant, object, word_for};
+use crate::plan::consult::{Class, Memory, Property, consult, meant, object, word_for};
 use crate::plan::course::Asked;
 use crate::plan::{Said, Spoke, said};
 
@@ -125,6 +125,8 @@ pub struct RuleJudge {
     segments: Consultation,
     ways: Consultation,
     openings: Consultation,
+    /// What was said of segments, while that helps.
+    known: Option<Memory<SegmentFacts, (Transition, Option<Source>)>>,
     /// The properties of ways, in the order in which they are told.
     of_ways: Vec<String>,
     told: Told,
@@ -162,9 +164,11 @@ impl RuleJudge {
         let [situations, segments, ways, openings] = classes();
         let of_ways: Vec<(&str, Type)> = ways.told.iter().copied().chain(told.further()).collect();
         let made = |class: &Class| ready(class.name, &class.told, class.asked);
+        let segments = made(&segments)?;
         Ok(Self {
+            known: Memory::of(&segments, SEGMENTS),
             situations: made(&situations)?,
-            segments: made(&segments)?,
+            segments,
             ways: ready(ways.name, &of_ways, ways.asked)?,
             openings: made(&openings)?,
             of_ways: of_ways.iter().map(|(name, _)| (*name).to_owned()).collect(),
@@ -304,20 +308,31 @@ impl Judge for RuleJudge {
         if self.trouble.is_some() {
             return unchanged;
         }
+        if self.known.as_mut().is_some_and(Memory::is_idle) {
+            self.known = None;
+        }
+        if let Some((transition, source)) = self.known.as_mut().and_then(|known| known.recall(facts)) {
+            return Transition { source: source.unwrap_or(facts.source), ..transition };
+        }
         consult(&mut self.segments, &object(SEGMENTS, facts), &mut self.trouble);
         let of = |output| self.segments.truth(output);
         let (Some(becomes), Some(is_kept)) = (self.segments.number(0), of(2)) else {
             self.missing("what becomes of a segment", None);
             return unchanged;
         };
-        Transition {
+        let source = meant(&self.segments, 1, &SOURCES).ok();
+        let transition = Transition {
             confidence: becomes.clamp(0.0, 255.0) as u8,
-            source: meant(&self.segments, 1, &SOURCES).unwrap_or(facts.source),
+            source: source.unwrap_or(facts.source),
             is_kept,
             counts_for_pose: of(3).unwrap_or(false),
             is_anchored: of(4).unwrap_or(false),
             is_cut: of(5).unwrap_or(false),
+        };
+        if let Some(known) = &mut self.known {
+            known.keep((transition, source));
         }
+        transition
     }
 
     fn weigh(&mut self, facts: &WayFacts) -> Option<f64> {

@@ -1,9 +1,13 @@
 //! Objects that rules are asked about one at a time: what rules are told of each, as a table of its properties, and what
 //! they are asked.
 
+mod memory;
+
 use std::sync::Arc;
 
 use adit_engine::{ClassError, Consultation, Datum, RuleBase, Type};
+
+pub use memory::Memory;
 
 /// What rules may be told of objects of one class, and what they are asked.
 #[derive(Debug)]
@@ -14,6 +18,7 @@ pub struct Class {
 }
 
 /// How a property follows from the facts of an object, by the type of its value.
+#[derive(Debug)]
 pub enum Of<F> {
     Number(fn(&F) -> f64),
     /// A number that is not always known.
