@@ -74,8 +74,12 @@ impl RayGrid {
             return None;
         }
         let bounds = self.bounds();
-        let far = bounds.dx() + bounds.dy() + bounds.nearest_to(from).distance(from);
-        let (enter, _) = bounds.clip(from, from + along * far)?;
+        let enter = if bounds.contains(from) {
+            from
+        } else {
+            let far = bounds.dx() + bounds.dy() + bounds.nearest_to(from).distance(from);
+            bounds.clip(from, from + along * far)?.0
+        };
         let mut walk = Walk::new(self, enter, along);
         let entered = enter.distance(from);
         let mut best: Option<Echo> = None;

@@ -113,11 +113,8 @@ struct Ray {
     sigma_m: f64,
     /// The beam of a view that goes where this one does.
     beam: usize,
-    /// Logarithms of densities by the metre: of an echo just where it should come from, of one from before that, and of one
-    /// from anywhere.
+    /// The logarithm of the density, by the metre, of an echo just where it should come from.
     peak: f64,
-    before: f64,
-    anywhere: f64,
 }
 
 /// A scan of a robot that stands.
@@ -125,6 +122,9 @@ struct Ray {
 pub struct Scan {
     rays: Vec<Ray>,
     reach_m: f64,
+    /// Logarithms of densities by the metre: of an echo from before where it should come from, and of one from anywhere.
+    before: f64,
+    anywhere: f64,
 }
 
 /// A pose at which a scan may have been taken.
@@ -140,22 +140,24 @@ impl Scan {
     pub fn new(readings: &[Reading], settings: &Settings) -> Self {
         let ray = |reading: &Reading| {
             let range_m = reading.range_m.unwrap_or(settings.sonar_range_m);
-            Ray::new(reading.bearing, reading.range_m, sigma_m(range_m, settings), settings.sonar_range_m)
+            Ray::new(reading.bearing, reading.range_m, sigma_m(range_m, settings))
         };
-        Self { rays: readings.iter().map(ray).collect(), reach_m: settings.sonar_range_m }
+        let reach_m = settings.sonar_range_m;
+        let (before, anywhere) = (((BEFORE + ANYWHERE) / reach_m).ln(), (ANYWHERE / reach_m).ln());
+        Self { rays: readings.iter().map(ray).collect(), reach_m, before, anywhere }
     }
 
     /// Some of its beams, for comparison with what would be seen up to so many metres away.
     fn blurred(&self, blur_m: f64) -> Self {
         let some = self.rays.iter().step_by(OF_VIEWS);
-        let blurred =
-            some.map(|ray| Ray::new(ray.bearing, ray.range_m, ray.sigma_m.hypot(blur_m), self.reach_m));
+        let blurred = some.map(|ray| Ray::new(ray.bearing, ray.range_m, ray.sigma_m.hypot(blur_m)));
         Self { rays: blurred.collect(), ..*self }
     }
 
     /// The logarithm of how likely it is where its beams should go so far.
     fn likelihood(&self, expected_m: impl Fn(&Ray) -> f64) -> f64 {
-        CREDIT * self.rays.iter().map(|ray| ray.likelihood(expected_m(ray))).sum::<f64>()
+        let elsewhere = [self.before, self.anywhere];
+        CREDIT * self.rays.iter().map(|ray| ray.likelihood(expected_m(ray), elsewhere)).sum::<f64>()
     }
 }
 
@@ -165,21 +167,20 @@ fn sigma_m(range_m: f64, settings: &Settings) -> f64 {
 }
 
 impl Ray {
-    fn new(bearing: f64, range_m: Option<f64>, sigma_m: f64, reach_m: f64) -> Self {
+    fn new(bearing: f64, range_m: Option<f64>, sigma_m: f64) -> Self {
         let beam = (bearing / TAU * VIEW as f64).round().rem_euclid(VIEW as f64) as usize;
         let peak = (HIT / (sigma_m * TAU.sqrt())).ln();
-        let (before, anywhere) = (((BEFORE + ANYWHERE) / reach_m).ln(), (ANYWHERE / reach_m).ln());
-        Self { bearing, range_m, sigma_m, beam, peak, before, anywhere }
+        Self { bearing, range_m, sigma_m, beam, peak }
     }
 
     /// The logarithm of how likely this is of a beam that should go so far, infinitely where it should meet nothing. Of an
     /// echo the likelier cause counts alone, which saves an exponential in the innermost loop.
-    fn likelihood(&self, expected_m: f64) -> f64 {
+    fn likelihood(&self, expected_m: f64, [before, anywhere]: [f64; 2]) -> f64 {
         let Some(range_m) = self.range_m else {
             return if expected_m.is_finite() { LN_MISSED } else { LN_NOTHING };
         };
         let off = (range_m - expected_m) / self.sigma_m;
-        let other = if range_m < expected_m { self.before } else { self.anywhere };
+        let other = if range_m < expected_m { before } else { anywhere };
         (self.peak - 0.5 * off * off).max(other)
     }
 }
@@ -255,21 +256,18 @@ impl KnownWalls {
     pub fn recognise(&self, scan: &Scan, pose: &Pose) -> Recognition {
         let (mut run, mut contradicted, mut explained, mut unexplained) = (0, 0, 0, 0);
         for ray in &scan.rays {
-            let cast = |by: f64| self.range_m(pose, ray.bearing + by, scan.reach_m);
-            let (range_m, ahead) = (ray.range_m.unwrap_or(f64::INFINITY), cast(0.0));
-            // whatever is beside it, where it ends is explained then
-            if ahead < scan.reach_m && range_m > ahead - ON_M && range_m < ahead + ON_M {
-                (run, explained) = (0, explained + 1);
-                continue;
-            }
-            let beside = [cast(-BESIDE), ahead, cast(BESIDE)];
-            let near = beside.into_iter().fold(f64::INFINITY, f64::min);
-            let far = beside.into_iter().fold(0.0, f64::max);
+            let range_m = ray.range_m.unwrap_or(f64::INFINITY);
+            let (mut near, mut far) = (f64::INFINITY, 0.0_f64);
+            // whatever else is beside it, where it ends is explained once something is there
+            let is_on = [0.0, -BESIDE, BESIDE].into_iter().any(|by| {
+                let expected_m = self.range_m(pose, ray.bearing + by, scan.reach_m);
+                (near, far) = (near.min(expected_m), far.max(expected_m));
+                near < scan.reach_m && range_m > near - ON_M && range_m < far + ON_M
+            });
+            explained += usize::from(is_on);
             run = if far < scan.reach_m && range_m > far + THROUGH_M { run + 1 } else { 0 };
             contradicted = contradicted.max(run);
             unexplained += usize::from(ray.range_m.is_some() && range_m < near - THROUGH_M);
-            let is_on = near < scan.reach_m && range_m > near - ON_M && range_m < far + ON_M;
-            explained += usize::from(is_on);
         }
         let share = |of: usize, all: usize| of as f64 / all.max(1) as f64;
         let [explained, unexplained] = [explained, unexplained].map(|of| share(of, scan.rays.len()));
