@@ -31,6 +31,9 @@ pub(super) fn free_ahead(
     let whole = from.distance(to);
     let mut free = Free { metres: whole, by: None };
     for (index, barrier) in barriers.iter().enumerate() {
+        if is_far(rim, (from, to), reach, barrier) {
+            continue;
+        }
         let reach = reach.min(rim.distance(to, barrier).max(least));
         if let Some(metres) = hit(rim, (from, to), reach, barrier).filter(|metres| *metres < free.metres) {
             free = Free { metres, by: Some(index) };
