@@ -128,13 +128,17 @@ impl LocalModel {
         let at = self.estimate.pose.at;
         let mut known: Vec<u32> = self.segments.iter().filter_map(|segment| segment.recalled).collect();
         known.sort_unstable();
-        let mut count = 0;
+        let (mut count, mut next) = (0, 0);
         for (number, line) in surfaces {
-            // what is known already is told apart first: mostly it is nearly all
-            if known.binary_search(&number).is_ok()
-                || line.distance(at) > self.settings.recall_m
-                || line.length() <= 0.0
-            {
+            // What is known already is told apart first: mostly it is nearly all. Where surfaces come in the order of their
+            // numbers, the next one stands where the one before was found, or behind it.
+            let is_there = next == 0 || known[next - 1] < number;
+            if !is_there || known.get(next).is_some_and(|known| *known < number) {
+                next = known.partition_point(|known| *known < number);
+            }
+            let is_known = known.get(next) == Some(&number);
+            next += usize::from(is_known);
+            if is_known || line.distance(at) > self.settings.recall_m || line.length() <= 0.0 {
                 continue;
             }
             let (sigma_m, sigma_angle) = (self.settings.recalled_sigma_m, self.settings.recalled_sigma_angle);

@@ -48,6 +48,33 @@ impl Pose {
     }
 }
 
+/// Where a robot was before, told by its wheels' count then: what was sensed while it stood has one count.
+#[derive(Clone, Debug)]
+pub(crate) struct Past {
+    now: Pose,
+    odometry: Pose,
+    /// The count that was asked about last, with what was said.
+    last: Option<(Pose, [Pose; 2])>,
+}
+
+impl Past {
+    /// For a robot that is at a pose now, with this count.
+    pub const fn new(now: Pose, odometry: Pose) -> Self {
+        Self { now, odometry, last: None }
+    }
+
+    /// Where it was at a count: as seen from where it is now, and on the map.
+    pub fn at(&mut self, odometry: &Pose) -> [Pose; 2] {
+        if let Some((_, poses)) = self.last.filter(|(asked, _)| asked == odometry) {
+            return poses;
+        }
+        let back = self.odometry.to(odometry);
+        let poses = [back, self.now.then(&back)];
+        self.last = Some((*odometry, poses));
+        poses
+    }
+}
+
 /// The frame of a pose, made ready to carry many points into it and out of it.
 #[derive(Clone, Copy, Debug)]
 pub struct Frame {

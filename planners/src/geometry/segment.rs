@@ -64,6 +64,13 @@ impl Segment {
         p.distance(self.nearest_to(p))
     }
 
+    /// Whether a point is no farther than so much: as [`Self::distance`] tells it, and of most that are farther, sooner.
+    pub fn is_within(&self, p: Point, reach_m: f64) -> bool {
+        let Rect { x0, y0, x1, y1 } = self.bounds();
+        let aside = (x0 - p.x).max(p.x - x1).max(y0 - p.y).max(p.y - y1);
+        aside <= reach_m + ROUNDING_M && self.distance(p) <= reach_m
+    }
+
     /// Metres between two segments; 0 where they meet.
     pub fn gap(&self, other: &Self) -> f64 {
         if self.crosses(other) {

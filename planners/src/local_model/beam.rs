@@ -1,9 +1,9 @@
 //! Readings put where the estimated pose says that they were taken.
 
-use super::{Estimate, Settings};
+use super::Settings;
 use crate::body::Reading;
 use crate::geometry::Point;
-use crate::pose::{Frame, Pose};
+use crate::pose::{Frame, Past, Pose};
 
 /// A reading in the map's frame.
 #[derive(Clone, Copy, Debug)]
@@ -19,9 +19,8 @@ pub(super) struct Beam {
 }
 
 impl Beam {
-    pub fn new(reading: &Reading, estimate: &Estimate, odometry: &Pose, settings: &Settings) -> Self {
-        let back = odometry.to(&reading.odometry);
-        let then = estimate.pose.then(&back);
+    pub fn new(reading: &Reading, past: &mut Past, settings: &Settings) -> Self {
+        let [back, then] = past.at(&reading.odometry);
         let range = reading.range_m.unwrap_or(settings.sonar_range_m);
         Self {
             from: then.at,

@@ -77,10 +77,10 @@ impl Estimate {
         if surface.is_anchored { &self.covariance } else { &self.relative }
     }
 
-    /// Variances of the place, in the direction in which it is least certain, and of the heading as seen from a surface.
-    pub(super) fn variances_from(&self, surface: &ModelSegment) -> [f64; 2] {
-        let covariance = self.seen_from(surface);
-        [largest(covariance), covariance[(2, 2)].max(0.0)]
+    /// Variances of the place, in the direction in which it is least certain, and of the heading: as seen from a surface that the
+    /// robot has found itself, and from one that scans leave where it is.
+    pub(super) fn variances(&self) -> [[f64; 2]; 2] {
+        [&self.relative, &self.covariance].map(|of| [largest(of), of[(2, 2)].max(0.0)])
     }
 
     /// Dead reckoning: the pose after a step of the wheels' count, less sure by what wheels do not tell.

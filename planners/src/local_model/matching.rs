@@ -7,7 +7,8 @@ use nalgebra::{Matrix3, RowVector3};
 use super::sensor_model::Seen;
 use super::{Estimate, ModelSegment, Settings};
 use crate::geometry::Point;
-use crate::geometry::tolerance::ROUNDING;
+use crate::geometry::tolerance::{ROUNDING, ROUNDING_M};
+use crate::search::Csr;
 
 /// A segment of a scan on one of the model, by what has to be told of it.
 #[derive(Clone, Copy, Debug)]
@@ -32,6 +33,9 @@ const LARGEST_ANGLE: f64 = FRAC_PI_6;
 /// What lies before a segment by less hides nothing: corners meet it there, metres.
 const BEFORE_M: f64 = 0.02;
 
+/// Segments lie in so many rings about the robot, by their nearest points.
+const RINGS: usize = 64;
+
 /// A direction and place of a segment within hearing, so that most are left out after a few operations.
 #[derive(Clone, Copy)]
 pub(super) struct Near {
@@ -39,14 +43,20 @@ pub(super) struct Near {
     pub a: Point,
     pub along: Point,
     pub length_m: f64,
+    /// How far its nearest point is from where the robot was thought to be, metres, up to rounding.
+    pub nearest_m: f64,
+    is_anchored: bool,
 }
 
 impl Near {
-    fn new(model: usize, segment: &ModelSegment) -> Self {
+    fn new(model: usize, segment: &ModelSegment, at: Point) -> Self {
         let (line, length_m) = (&segment.line, segment.line.length());
         let share = 1.0 / length_m.max(f64::MIN_POSITIVE);
         let along = (line.b - line.a) * share;
-        Self { model, a: line.a, along, length_m }
+        let is_anchored = segment.is_anchored;
+        let near = Self { model, a: line.a, along, length_m, nearest_m: 0.0, is_anchored };
+        let nearest = near.a + along * near.place(at).clamp(0.0, length_m);
+        Self { nearest_m: nearest.distance(at), ..near }
     }
 
     fn place(&self, p: Point) -> f64 {
@@ -64,29 +74,41 @@ pub(super) struct Nearby {
     /// In the order of their places.
     pub walls: Vec<Near>,
     /// Where the robot was thought to be when they were gathered.
-    at: Point,
-    /// Those that scans leave where they are, by how far from there the nearest point is (squared), the nearest first.
-    standing: Vec<(f64, usize)>,
-    /// How far the middle of one of these is at most, and how unsure one is.
+    pub at: Point,
+    /// Where they stand in that order, by the ring about there in which the nearest point is.
+    rings: Csr<u32>,
+    /// How wide a ring is, metres.
+    ring_m: f64,
+    /// How far the middle of one that scans leave where it is is at most, and how unsure such a one is.
     middle_m: f64,
     sigmas: [f64; 2],
 }
 
 impl Nearby {
     pub fn new(places: impl Iterator<Item = usize>, segments: &[ModelSegment], at: Point) -> Self {
-        let (mut walls, mut standing) = (Vec::new(), Vec::new());
+        let (mut walls, mut farthest_m) = (Vec::new(), 0.0_f64);
         let (mut middle, [mut sigma_m, mut sigma_angle]) = (0.0_f64, [0.0_f64; 2]);
         for place in places {
             let segment = &segments[place];
-            walls.push(Near::new(place, segment));
+            let wall = Near::new(place, segment, at);
+            walls.push(wall);
+            farthest_m = farthest_m.max(wall.nearest_m);
             if segment.is_anchored {
-                standing.push((segment.line.squared_distance(at), place));
                 middle = middle.max(segment.line.middle().squared_distance(at));
                 (sigma_m, sigma_angle) = (sigma_m.max(segment.sigma_m), sigma_angle.max(segment.sigma_angle));
             }
         }
-        standing.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
-        Self { walls, at, standing, middle_m: middle.sqrt(), sigmas: [sigma_m, sigma_angle] }
+        let ring_m = (farthest_m / RINGS as f64).max(ROUNDING_M);
+        let of_rings = (0..).zip(&walls).map(|(index, wall)| (ring(wall.nearest_m, ring_m), index));
+        let rings = Csr::new(RINGS, of_rings);
+        Self { walls, at, rings, ring_m, middle_m: middle.sqrt(), sigmas: [sigma_m, sigma_angle] }
+    }
+
+    /// All that may have a point so near to where the robot was thought to be, and some others.
+    fn within(&self, reach_m: f64) -> impl Iterator<Item = &Near> {
+        let reach_m = reach_m * (1.0 + ROUNDING) + ROUNDING_M;
+        let rings = &self.rings.items()[..self.rings.range(ring(reach_m, self.ring_m)).end];
+        rings.iter().map(|&index| &self.walls[index as usize])
     }
 
     /// How far from the middle of a scan's segment the line of any on which it may lie runs at most, by how unsure the pose is
@@ -97,6 +119,10 @@ impl Nearby {
         let standing_m = settings.match_sigmas * (by_offset + by_pose).sqrt();
         settings.match_offset_m.max(standing_m) * (1.0 + ROUNDING)
     }
+}
+
+fn ring(far_m: f64, ring_m: f64) -> usize {
+    ((far_m / ring_m) as usize).min(RINGS - 1)
 }
 
 /// How sure the place of a segment is as seen from an estimated pose: variances across it at a point, and of its angle.
@@ -138,11 +164,9 @@ fn is_hidden(wall: &Near, seen: &Seen, near: &Nearby, segments: &[ModelSegment],
     let far = on.distance(from);
     let towards = (on - from) * (1.0 / far.max(f64::MIN_POSITIVE));
     // no point of the others is so near
-    let reach = (far + from.distance(near.at)).powi(2);
-    let mut others = near.standing.iter().take_while(|(nearest, _)| *nearest < reach);
-    others.any(|&(_, other)| {
-        let hit = segments[other].line.hit(from, towards);
-        other != wall.model && hit.is_some_and(|(range_m, _)| range_m < far - BEFORE_M)
+    near.within(far + from.distance(near.at)).filter(|other| other.is_anchored).any(|other| {
+        let hit = segments[other.model].line.hit(from, towards);
+        other.model != wall.model && hit.is_some_and(|(range_m, _)| range_m < far - BEFORE_M)
     })
 }
 
@@ -167,7 +191,10 @@ pub(super) fn matches(
     let row = RowVector3::new(across.x, across.y, lever);
     let by_pose = |covariance: &Matrix3<f64>| (row * covariance * row.transpose())[0];
     let reach_m = near.reach_m(seen, by_pose(&estimate.covariance), estimate, settings);
-    for wall in &near.walls {
+    // what lies beside a part of it is no farther from its centre than that
+    let ends_m = seen.line.a.distance(fit.centre).max(seen.line.b.distance(fit.centre));
+    let far_m = fit.centre.distance(near.at) + reach_m + ends_m;
+    for wall in near.within(far_m) {
         let offset = wall.offset(fit.centre);
         if offset.abs() > reach_m {
             continue;
@@ -231,13 +258,13 @@ mod tests {
     use crate::body::Reading;
     use crate::geometry::Segment;
     use crate::local_model::{LocalModel, SegmentFacts, Transition};
-    use crate::pose::Pose;
+    use crate::pose::{Past, Pose};
 
     impl Nearby {
         /// The same, by which none is left out early.
         fn without_bounds(mut self) -> Self {
             self.sigmas[0] = f64::INFINITY;
-            self.standing.iter_mut().for_each(|(nearest, _)| *nearest = 0.0);
+            self.ring_m = f64::MIN_POSITIVE;
             self
         }
     }
@@ -290,7 +317,8 @@ mod tests {
             let mut model = LocalModel::new(Settings::default(), estimate);
             model.recall((0..).zip(known), stays);
             let (settings, segments) = (&model.settings, &model.segments);
-            let beam = |reading: &Reading| Beam::new(reading, &estimate, &Pose::default(), settings);
+            let mut past = Past::new(estimate.pose, Pose::default());
+            let beam = |reading: &Reading| Beam::new(reading, &mut past, settings);
             let beams: Vec<Beam> = scan(&walls, &noise_m).iter().map(beam).collect();
             // the pose is corrected after the walls were gathered
             let at = estimate.pose.at + Point::new(moved_m, moved_m / 2.0);

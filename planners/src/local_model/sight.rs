@@ -1,9 +1,10 @@
 //! Which beams cross which segments: what should have been seen, and what is seen to be gone.
 
 use super::beam::Beam;
+use super::matching::Near;
 use super::{ModelSegment, Settings};
+use crate::geometry::Point;
 use crate::geometry::tolerance::{ROUNDING, ROUNDING_M};
-use crate::geometry::{Point, orient};
 
 /// A beam across a segment.
 #[derive(Clone, Copy, Debug)]
@@ -16,6 +17,8 @@ pub(super) struct Crossing {
     pub place_m: f64,
     /// Sine of the angle between both.
     pub sine: f64,
+    /// Whether the echo may come from the segment, where that was asked.
+    pub is_end: bool,
 }
 
 impl Crossing {
@@ -44,15 +47,19 @@ pub(super) struct Fan {
     /// For equal parts of the turn the place in that order of the first beam in it or after it.
     begins: Vec<usize>,
     centre: Point,
+    /// How far that is at most from where the robot was thought to be when segments near it were gathered.
+    off_m: f64,
     /// How far from the centre the beams begin, at most.
     spread_m: f64,
 }
 
 impl Fan {
-    pub fn new(beams: &[Beam]) -> Self {
+    /// Of a robot that was thought to be at a point when segments near it were gathered.
+    pub fn new(beams: &[Beam], at: Point) -> Self {
         let count = beams.len().max(1) as f64;
         let (x, y) = beams.iter().fold((0.0, 0.0), |(x, y), beam| (x + beam.from.x, y + beam.from.y));
         let centre = Point::new(x / count, y / count);
+        let off_m = centre.distance(at) * (1.0 + ROUNDING) + ROUNDING_M;
         let spread_m = beams.iter().map(|beam| beam.from.distance(centre)).fold(0.0, f64::max);
         let direction = |(i, beam): (usize, &Beam)| (beam.towards.diamond_angle(), i);
         let mut order: Vec<(f64, usize)> = beams.iter().enumerate().map(direction).collect();
@@ -62,7 +69,7 @@ impl Fan {
             begins.resize(begins.len().max(part(*at) + 1), place);
         }
         begins.resize(PARTS + 1, order.len());
-        Self { order, begins, centre, spread_m }
+        Self { order, begins, centre, off_m, spread_m }
     }
 
     /// Beams from a direction on, in order.
@@ -70,19 +77,18 @@ impl Fan {
         self.order[self.begins[part(direction)]..].iter().skip_while(move |(at, _)| *at < direction)
     }
 
-    /// All beams across a segment of a length, by place in the fan; beams reach as far as the sonar hears.
+    /// All beams across a segment that lies `near` the centre of the fan; beams reach as far as the sonar hears.
     pub fn crossings(
         &self,
         segment: &ModelSegment,
-        length: f64,
+        near: &Near,
         beams: &[Beam],
         settings: &Settings,
         found: &mut Vec<Crossing>,
     ) {
         found.clear();
         let (a, b, c) = (segment.line.a, segment.line.b, self.centre);
-        // It tells only which beams to test, so that its last bit does not matter: without hypot, which is slow.
-        let nearest = segment.line.squared_distance(c).sqrt();
+        let (nearest, length) = (near.nearest_m - self.off_m, near.length_m);
         if nearest > settings.sonar_range_m + self.spread_m + ROUNDING_M {
             return;
         }
@@ -97,6 +103,7 @@ impl Fan {
                     range_m,
                     place_m: share * length,
                     sine: (cross / length).abs(),
+                    is_end: false,
                 });
             }
         };
@@ -104,7 +111,8 @@ impl Fan {
             self.order.iter().for_each(&mut test);
             return;
         }
-        let is_left = orient(c, a, b) >= 0.0;
+        // rounded: which end comes first does not matter of a segment that is seen end on
+        let is_left = (a - c).cross(b - c) >= 0.0;
         let (first, last) = if is_left { (a, b) } else { (b, a) };
         // an angle whose sine is at most a half is at most 1.05 times as large as the sine
         let widened = 1.05 * self.spread_m / nearest + ROUNDING;
@@ -133,12 +141,11 @@ pub(super) struct Evidence {
 
 impl Evidence {
     /// Judges crossings: a beam ends on the segment, before it (which says nothing), or ran through it.
-    /// `variance` is that of the place of the segment as seen from the robot, `least_sine` the sine of the grazing angle.
+    /// `least_sine` is the sine of the grazing angle.
     pub fn new(
         crossings: &mut [Crossing],
         beams: &[Beam],
         length_m: f64,
-        variance: f64,
         least_sine: f64,
         settings: &Settings,
     ) -> Self {
@@ -149,7 +156,7 @@ impl Evidence {
         for crossing in crossings.iter().filter(|crossing| crossing.sine >= least_sine) {
             let beam = &beams[crossing.beam];
             let beyond = beam.range_m.unwrap_or(f64::INFINITY) - crossing.range_m;
-            let agrees = crossing.agrees(beam, variance, settings);
+            let agrees = crossing.is_end;
             if !agrees && beyond > 0.0 {
                 evidence.through += 1;
                 // what is free begins half way from the beam before
@@ -183,6 +190,7 @@ impl Evidence {
 mod tests {
     use proptest::prelude::*;
 
+    use super::super::matching::Nearby;
     use super::super::{Estimate, LocalModel, Transition};
     use super::*;
     use crate::geometry::Segment;
@@ -213,12 +221,13 @@ mod tests {
             };
             let is_direction = |beam: &Beam| (beam.towards.length() - 1.0).abs() < ROUNDING;
             let beams: Vec<Beam> = beams.into_iter().map(beam).filter(is_direction).collect();
-            let (fan, settings) = (Fan::new(&beams), Settings::default());
+            let (fan, settings) = (Fan::new(&beams, Point::default()), Settings::default());
+            let near = Nearby::new(0..model.segments().len(), model.segments(), Point::default());
             let all = Fan { spread_m: f64::INFINITY, order: fan.order.clone(), begins: fan.begins.clone(), ..fan };
-            for segment in model.segments() {
+            for (segment, near) in model.segments().iter().zip(&near.walls) {
                 let [found, expected] = [&fan, &all].map(|fan| {
                     let mut crossings = Vec::new();
-                    fan.crossings(segment, line.length(), &beams, &settings, &mut crossings);
+                    fan.crossings(segment, near, &beams, &settings, &mut crossings);
                     crossings.sort_by_key(|crossing| crossing.beam);
                     format!("{crossings:?}")
                 });

@@ -12,7 +12,7 @@ use super::sensor_model::{self, Seen};
 use super::sequences;
 use super::{LocalModel, ObjectId, SegmentFacts, SegmentId, Source, Transition};
 use crate::body::Reading;
-use crate::pose::Pose;
+use crate::pose::{Past, Pose};
 use looking::{Explained, Look};
 
 /// What one scan changed.
@@ -47,8 +47,9 @@ impl LocalModel {
         mut decide: impl FnMut(&SegmentFacts) -> Transition,
     ) -> Update {
         let before = self.estimate;
+        let mut past = Past::new(before.pose, self.odometry);
         let beams: Vec<Beam> =
-            scan.iter().map(|reading| Beam::new(reading, &before, &self.odometry, &self.settings)).collect();
+            scan.iter().map(|reading| Beam::new(reading, &mut past, &self.settings)).collect();
         let groups = sensor_model::groups(&beams, &self.settings);
         let seen = sensor_model::build(&groups, &beams, &self.settings);
         let near = self.near();
@@ -130,6 +131,9 @@ impl LocalModel {
     /// Joins the ends of what changed.
     fn connect(&mut self, changed: &[SegmentId], gone: &[SegmentId]) {
         sequences::forget(&mut self.segments, gone);
+        if changed.is_empty() {
+            return;
+        }
         let near: Vec<usize> = self.within_hearing().collect();
         let changed: Vec<usize> = changed.iter().filter_map(|id| self.place(*id).ok()).collect();
         sequences::join(&mut self.segments, &changed, &near, &self.settings);

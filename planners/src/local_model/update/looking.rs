@@ -59,10 +59,10 @@ impl LocalModel {
 
     /// How many beams end where the nearest of the segments is that scans leave where they are.
     pub(super) fn explained(&self, beams: &[Beam], near: &Nearby) -> usize {
-        let fan = Fan::new(beams);
+        let fan = Fan::new(beams, near.at);
         let (mut firsts, mut crossings) = (vec![None::<Crossing>; beams.len()], Vec::new());
         for wall in near.walls.iter().filter(|wall| self.segments[wall.model].is_anchored) {
-            fan.crossings(&self.segments[wall.model], wall.length_m, beams, &self.settings, &mut crossings);
+            fan.crossings(&self.segments[wall.model], wall, beams, &self.settings, &mut crossings);
             for crossing in &crossings {
                 let first = &mut firsts[crossing.beam];
                 if first.is_none_or(|other| crossing.range_m < other.range_m) {
@@ -77,29 +77,31 @@ impl LocalModel {
 
     /// What beams say of the segments within hearing, what each beam meets first, and how far the model explains it.
     pub(super) fn look(&self, beams: &[Beam], near: &Nearby) -> (Vec<Look>, Vec<First>, Vec<Explained>) {
-        let fan = Fan::new(beams);
+        let fan = Fan::new(beams, near.at);
         let mut looks = vec![Look::default(); self.segments.len()];
         let mut firsts: Vec<First> = vec![None; beams.len()];
         let mut explained = vec![Explained::default(); beams.len()];
         let mut crossings = Vec::new();
         let (at, least_sine) = (self.estimate.pose.at, self.settings.grazing_angle.sin());
+        let variances = self.estimate.variances();
         for wall in &near.walls {
             let segment = &self.segments[wall.model];
-            fan.crossings(segment, wall.length_m, beams, &self.settings, &mut crossings);
+            fan.crossings(segment, wall, beams, &self.settings, &mut crossings);
             if crossings.is_empty() {
                 continue;
             }
-            let [place, heading] = self.estimate.variances_from(segment);
+            let [place, heading] = variances[usize::from(segment.is_anchored)];
             let [sigma_m, _] = segment.relative_sigmas(&self.settings);
             let variance = place + sigma_m.powi(2) + heading * segment.line.squared_distance(at);
             let mut is_told = false;
-            for crossing in &crossings {
+            for crossing in &mut crossings {
                 let first = &mut firsts[crossing.beam];
                 if first.is_none_or(|(_, other)| crossing.range_m < other.range_m) {
                     *first = Some((wall.model, *crossing));
                 }
                 let beam = &beams[crossing.beam];
                 let agrees = crossing.agrees(beam, variance, &self.settings);
+                crossing.is_end = agrees;
                 let Explained { by_any, by_known } = &mut explained[crossing.beam];
                 *by_any |= agrees;
                 *by_known |= agrees && segment.is_anchored;
@@ -108,7 +110,7 @@ impl LocalModel {
             // beams that all end before it say nothing
             if is_told {
                 looks[wall.model].evidence =
-                    Evidence::new(&mut crossings, beams, wall.length_m, variance, least_sine, &self.settings);
+                    Evidence::new(&mut crossings, beams, wall.length_m, least_sine, &self.settings);
             }
         }
         (looks, firsts, explained)

@@ -3,6 +3,7 @@
 use super::Navigator;
 use crate::body::Reading;
 use crate::geometry::{Point, Segment};
+use crate::pose::Past;
 
 /// So near to a surface of the model an echo is one of that, metres, and standard deviations of its range.
 const OF_SURFACE_M: f64 = 0.03;
@@ -20,8 +21,12 @@ impl Navigator<'_> {
         let at = self.pose().at;
         let reach = NEAR_M + SAME_THING_M;
         let known = self.barriers.iter().chain(&self.moving).copied();
-        let near: Vec<Segment> = known.filter(|line| line.distance(at) <= reach).collect();
-        let echoes: Vec<Option<Point>> = part.iter().map(|reading| self.loose_echo(reading, &near)).collect();
+        let near: Vec<Segment> = known.filter(|line| line.is_within(at, reach)).collect();
+        let mut past = Past::new(self.pose(), self.odometry());
+        let sigma_m = self.model.estimate().sigma_m();
+        let mut on = 0;
+        let echo = |reading| self.loose_echo(reading, &mut past, sigma_m, (&near, &mut on));
+        let echoes: Vec<Option<Point>> = part.iter().map(echo).collect();
         let is_apart = |a: &Option<Point>, b: &Option<Point>| match (a, b) {
             (Some(a), Some(b)) => a.distance(*b) > SAME_THING_M,
             _ => true,
@@ -46,15 +51,24 @@ impl Navigator<'_> {
         self.loose.retain(|(since, _)| *since < turn);
     }
 
-    /// Where an echo comes from that is near, and of no surface.
-    fn loose_echo(&self, reading: &Reading, near: &[Segment]) -> Option<Point> {
+    /// Where an echo comes from that is near, and of no surface; `sigma_m` is how unsure the robot is of its place. Surfaces are
+    /// looked at from the one `on` which the echo before lies, since most lie on the same.
+    fn loose_echo(
+        &self,
+        reading: &Reading,
+        past: &mut Past,
+        sigma_m: f64,
+        (near, on): (&[Segment], &mut usize),
+    ) -> Option<Point> {
         let range_m = reading.range_m.filter(|range| *range <= NEAR_M)?;
         let of = self.model.settings();
-        let from = self.pose().then(&self.odometry().to(&reading.odometry));
+        let [_, from] = past.at(&reading.odometry);
         let at = from.at + from.direction(reading.bearing) * range_m;
-        let sigma_m =
-            (of.range_noise * range_m).hypot(of.range_noise_m).hypot(self.model.estimate().sigma_m());
+        let sigma_m = (of.range_noise * range_m).hypot(of.range_noise_m).hypot(sigma_m);
         let reach = OF_SURFACE_M + OF_SURFACE_SIGMAS * sigma_m;
-        near.iter().all(|line| line.distance(at) > reach).then_some(at)
+        let mut order = (*on..near.len()).chain(0..*on);
+        let found = order.find(|&index| near[index].is_within(at, reach));
+        *on = found.unwrap_or(*on);
+        found.is_none().then_some(at)
     }
 }
