@@ -86,7 +86,7 @@ pub(super) struct Nearby {
 
 impl Nearby {
     pub fn new(places: impl Iterator<Item = usize>, segments: &[ModelSegment], at: Point) -> Self {
-        let (mut walls, mut farthest_m) = (Vec::new(), 0.0_f64);
+        let (mut walls, mut farthest_m) = (Vec::with_capacity(segments.len()), 0.0_f64);
         let (mut middle, [mut sigma_m, mut sigma_angle]) = (0.0_f64, [0.0_f64; 2]);
         for place in places {
             let segment = &segments[place];

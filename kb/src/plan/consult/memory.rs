@@ -15,17 +15,16 @@ const TRIAL: u32 = 256;
 /// No more answers are kept than that; then it begins anew.
 const MOST: usize = 4096;
 
-/// A number that is not known, among those that are compared: so many numbers no rule compares with.
-const UNKNOWN: u64 = u64::MAX;
-
 /// Longer texts are not told apart here: their objects are asked about.
 const LONGEST: usize = 15;
 
 /// What was said of objects with facts of one kind.
 #[derive(Debug)]
 pub struct Memory<F, A> {
-    /// What rules look at, and how closely.
-    looks: Vec<(Of<F>, Grain)>,
+    /// Truths, and numbers with those that they are compared with: all of them make one word of the key.
+    coarse: Vec<(Of<F>, Vec<f64>)>,
+    /// What else rules look at.
+    whole: Vec<Of<F>>,
     answers: HashMap<Box<[u64]>, A, ahash::RandomState>,
     /// What the object that was asked about last looks like.
     key: Vec<u64>,
@@ -39,18 +38,37 @@ impl<F, A: Copy> Memory<F, A> {
         consultation: &Consultation,
         properties: impl IntoIterator<Item = Property<F>>,
     ) -> Option<Self> {
-        let looks = properties.into_iter().map(|(_, of)| of).zip(consultation.grains()?.iter().cloned());
-        let looks = looks.filter(|(_, grain)| *grain != Grain::Nothing).collect();
-        Some(Self { looks, answers: HashMap::default(), key: Vec::new(), asked: 0, known: 0 })
+        let (mut coarse, mut whole, mut words) = (Vec::new(), Vec::new(), 1_u64);
+        for ((_, of), grain) in properties.into_iter().zip(consultation.grains()?) {
+            let numbers = match (&of, grain) {
+                (_, Grain::Nothing) => continue,
+                (Of::Truth(_), _) => Some(Vec::new()),
+                (Of::Number(_) | Of::Perhaps(_), Grain::Among(numbers)) => Some(numbers.clone()),
+                _ => None,
+            };
+            let more = numbers.as_ref().and_then(|numbers| words.checked_mul(classes(numbers)));
+            match (numbers, more) {
+                (Some(numbers), Some(more)) => {
+                    words = more;
+                    coarse.push((of, numbers));
+                }
+                _ => whole.push(of),
+            }
+        }
+        Some(Self { coarse, whole, answers: HashMap::default(), key: Vec::new(), asked: 0, known: 0 })
     }
 
     /// What was said of an object like this one.
     pub fn recall(&mut self, facts: &F) -> Option<A> {
         self.key.clear();
-        for (of, grain) in &self.looks {
+        let word =
+            |word, (of, numbers): &(Of<F>, Vec<f64>)| word * classes(numbers) + class(of, numbers, facts);
+        self.key.push(self.coarse.iter().fold(0, word));
+        for of in &self.whole {
             match of {
-                Of::Number(of) => self.key.push(seen(of(facts), grain)),
-                Of::Perhaps(of) => self.key.push(seen(of(facts).unwrap_or(f64::NAN), grain)),
+                // to the bit: one divided by minus zero is not what it is by zero
+                Of::Number(of) => self.key.push(of(facts).to_bits()),
+                Of::Perhaps(of) => self.key.push(of(facts).unwrap_or(f64::NAN).to_bits()),
                 Of::Truth(of) => self.key.push(of(facts).into()),
                 Of::Text(of) => match of(facts) {
                     None => self.key.extend([0, 0]),
@@ -90,15 +108,22 @@ impl<F, A: Copy> Memory<F, A> {
     }
 }
 
-fn seen(number: f64, grain: &Grain) -> u64 {
-    match grain {
-        Grain::Among(_) if number.is_nan() => UNKNOWN,
-        Grain::Among(numbers) => {
-            numbers.iter().map(|known| u64::from(number > *known) + u64::from(number >= *known)).sum()
-        }
-        // to the bit: one divided by minus zero is not what it is by zero
-        Grain::Nothing | Grain::Whole => number.to_bits(),
+/// How many classes there are of what is compared with these numbers: between them, on them, and unknown.
+const fn classes(numbers: &[f64]) -> u64 {
+    2 * numbers.len() as u64 + 2
+}
+
+fn class<F>(of: &Of<F>, numbers: &[f64], facts: &F) -> u64 {
+    let number = match of {
+        Of::Truth(of) => return of(facts).into(),
+        Of::Number(of) => of(facts),
+        Of::Perhaps(of) => of(facts).unwrap_or(f64::NAN),
+        Of::Text(_) => f64::NAN,
+    };
+    if number.is_nan() {
+        return classes(numbers) - 1;
     }
+    numbers.iter().map(|known| u64::from(number > *known) + u64::from(number >= *known)).sum()
 }
 
 /// A short text and its length, which is none of a text that is not known.

@@ -21,7 +21,8 @@ impl Navigator<'_> {
         let at = self.pose().at;
         let reach = NEAR_M + SAME_THING_M;
         let known = self.barriers.iter().chain(&self.moving).copied();
-        let near: Vec<Segment> = known.filter(|line| line.is_within(at, reach)).collect();
+        let mut near: Vec<Segment> = Vec::with_capacity(self.barriers.len());
+        near.extend(known.filter(|line| line.is_within(at, reach)));
         let mut past = Past::new(self.pose(), self.odometry());
         let sigma_m = self.model.estimate().sigma_m();
         let mut on = 0;
