@@ -51,8 +51,8 @@ pub struct Settings {
     pub free_beams: u32,
     /// Beams that meet a segment at a smaller angle say nothing about whether it is still there.
     pub grazing_angle: f64,
-    /// Segments of which scans show nothing are asked about once in so many scans: what is hidden or out of hearing changes
-    /// by its distance and its age alone.
+    /// Segments of which scans show nothing are asked about once in so many scans: what is hidden, out of hearing or crossed by
+    /// fewer beams than make it visible changes by its distance and its age alone.
     pub hidden_scans: u32,
     /// Standard deviation across a segment of the global model.
     pub recalled_sigma_m: f64,

@@ -6,7 +6,8 @@ use super::looking::Look;
 
 impl LocalModel {
     /// Asks the state table about segments, and does what it says: about each one that is new, that moves or of which the
-    /// scan shows something, and about some of the others, in turn.
+    /// scan shows something, and about some of the others, in turn. Beams through a segment show something once they are as many
+    /// as make it visible or seen free.
     pub(super) fn settle(
         &mut self,
         looks: &[Look],
@@ -28,15 +29,17 @@ impl LocalModel {
                 segment.unseen = if look.is_matched { 0 } else { segment.unseen.saturating_add(1) };
             }
             let is_moving = segment.object.is_some_and(|id| objects.is_moving(id));
-            let is_shown = look.is_matched || evidence.on > 0 || evidence.through > 0;
+            let is_visible = evidence.on + evidence.through >= settings.visible_beams;
+            let is_seen_free = evidence.through >= settings.free_beams && evidence.through >= evidence.on;
+            let is_shown = look.is_matched || evidence.on > 0 || is_visible || is_seen_free;
             let has_turn = segment.id.0.wrapping_add(scans).is_multiple_of(turns);
             if segment.confidence > 0 && !is_moving && !is_shown && !has_turn {
                 return true;
             }
             let facts = SegmentFacts {
                 is_matched: look.is_matched,
-                is_visible: evidence.on + evidence.through >= settings.visible_beams,
-                is_seen_free: evidence.through >= settings.free_beams && evidence.through >= evidence.on,
+                is_visible,
+                is_seen_free,
                 is_moving,
                 beams_on: evidence.on,
                 beams_through: evidence.through,
