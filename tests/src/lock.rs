@@ -18,9 +18,9 @@ impl Lock {
     #[must_use]
     pub fn hold(site: &TestSite) -> Self {
         if let Some(name) = site.elsewhere.name() {
-            let free = "owner IS NULL OR ends < now()";
+            let free = "owner IS NULL OR until < now()";
             let taken = format!(
-                "UPDATE adit.sites SET owner = 'another', fence = fence + 1, ends = now() + interval '1 hour'
+                "UPDATE adit.sites SET owner = 'another', fence = fence + 1, until = now() + interval '1 hour'
                  WHERE site = '{name}' AND ({free}) RETURNING owner"
             );
             crate::within("nobody has the right to write", || {
@@ -51,7 +51,7 @@ impl Drop for Lock {
                 let _ = shell.wait();
             }
             Self::Lease(name) => {
-                let given_up = "UPDATE adit.sites SET owner = NULL, ends = NULL WHERE owner = 'another'";
+                let given_up = "UPDATE adit.sites SET owner = NULL, until = NULL WHERE owner = 'another'";
                 cluster().ask(&format!("{given_up} AND site = '{name}'"));
             }
         }
