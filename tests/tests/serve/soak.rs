@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::io::Read;
 use std::net::TcpStream;
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -54,7 +54,6 @@ struct Soak<'s> {
     site: &'s TestSite,
     service: &'s Service,
     over: AtomicBool,
-    turns: AtomicUsize,
     /// By what was asked and how it was answered.
     answers: Mutex<BTreeMap<(&'static str, u16), u64>>,
 }
@@ -75,10 +74,13 @@ impl Soak<'_> {
         answer
     }
 
-    /// Does something again and again until it is over.
-    fn repeat(&self, pause: u64, mut work: impl FnMut(usize)) {
-        while !self.over.load(Ordering::Relaxed) {
-            work(self.turns.fetch_add(1, Ordering::Relaxed));
+    /// Does something again and again until it is over; the first turn is of this number.
+    fn repeat(&self, pause: u64, first: usize, work: impl Fn(usize)) {
+        for turn in first.. {
+            if self.over.load(Ordering::Relaxed) {
+                break;
+            }
+            work(turn);
             thread::sleep(Duration::from_millis(pause));
         }
     }
@@ -154,25 +156,20 @@ fn memory_descriptors_and_threads_stay_level() {
     let seconds: u64 = std::env::var("ADIT_SOAK").ok().and_then(|text| text.parse().ok()).unwrap_or(6);
     let site = TestSite::example("clinic").built();
     let service = Service::start(&site);
-    let soak = Soak {
-        site: &site,
-        service: &service,
-        over: AtomicBool::new(false),
-        turns: AtomicUsize::new(0),
-        answers: Mutex::default(),
-    };
+    let soak =
+        Soak { site: &site, service: &service, over: AtomicBool::new(false), answers: Mutex::default() };
     let before = Held::by(&service);
     let mut held = Vec::new();
     thread::scope(|scope| {
-        for _ in 0..3 {
-            scope.spawn(|| soak.repeat(40, |turn| soak.asks(turn)));
+        let soak = &soak;
+        for first in [0, 4, 8] {
+            scope.spawn(move || soak.repeat(40, first, |turn| soak.asks(turn)));
+            scope.spawn(move || soak.repeat(50, first, |turn| soak.listens(turn)));
+            scope.spawn(move || soak.repeat(50, first + first / 4, |turn| soak.dawdles(turn)));
         }
-        scope.spawn(|| soak.repeat(400, |turn| soak.edits(turn)));
-        scope.spawn(|| soak.repeat(3_000, |turn| soak.reloads(turn)));
-        for _ in 0..3 {
-            scope.spawn(|| soak.repeat(50, |turn| soak.listens(turn)));
-            scope.spawn(|| soak.repeat(50, |turn| soak.dawdles(turn)));
-        }
+        // an edit before the first undo
+        scope.spawn(move || soak.repeat(400, 3, |turn| soak.edits(turn)));
+        scope.spawn(move || soak.repeat(3_000, 0, |turn| soak.reloads(turn)));
         let began = Instant::now();
         let looked = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| {
             while began.elapsed() < Duration::from_secs(seconds) {
