@@ -69,7 +69,7 @@ pub enum Failure {
     KeptAlready {
         /// Where it is.
         place: String,
-        /// Its name.
+        /// The one that stands in the way.
         schema: String,
     },
     /// Some program has the tables for longer than an upgrade waits.

@@ -33,7 +33,7 @@ impl Place {
     pub fn parse(text: &str) -> Result<Self> {
         let refused = |reason: &str| Failure::Url(reason.to_owned());
         if !Self::is_meant(text) {
-            return Err(refused("it begins with `postgres://`").into());
+            return Err(refused("one begins with `postgres://`").into());
         }
         let (address, query) = text.split_once('?').unwrap_or((text, ""));
         let mut site = None;

@@ -56,28 +56,24 @@ pub fn upgrade(place: &Place, mut on_site: impl FnMut(usize, usize, &str)) -> Re
     };
     let kept = format!("{SCHEMA}_v{}", found.to_string().replace('.', "_"));
     link.whole(true);
-    let done: Result<Vec<String>> = (|| {
-        let sites = begin(&mut link, &kept)?;
-        for (at, old) in sites.iter().enumerate() {
-            on_site(at, sites.len(), &old.site);
-            let template = link.apart(Template::of(steps, old.worlds))?;
-            let changes =
-                link.once(async |connection| rows::read(connection, &kept, &old.site, &template).await)?;
-            let (files, leaving) = link.apart(brought_up(&template, changes))?;
-            let Leaving { template, mut changes, generation } = leaving;
-            changes.files = files;
-            let head = Head { entry: old.entry + 1, fence: old.fence + 1, generation };
-            link.once(async |connection| {
-                rows::put_whole(connection, &old.site, &template, &changes, head).await
-            })?;
-        }
-        link.once(async |connection| end(connection, &kept).await)?;
-        Ok(sites.into_iter().map(|old| old.site).collect())
-    })();
-    if done.is_err() {
-        link.once(async |connection| Ok(sqlx::raw_sql("ROLLBACK").execute(connection).await.map(drop)?)).ok();
+    // where it fails, the transaction ends with the connection
+    let sites = begin(&mut link, &kept)?;
+    for (at, old) in sites.iter().enumerate() {
+        on_site(at, sites.len(), &old.site);
+        let template = link.apart(Template::of(steps, old.worlds))?;
+        let changes =
+            link.once(async |connection| rows::read(connection, &kept, &old.site, &template).await)?;
+        let (files, leaving) = link.apart(brought_up(&template, changes))?;
+        let Leaving { template, mut changes, generation } = leaving;
+        changes.files = files;
+        let head = Head { entry: old.entry + 1, fence: old.fence + 1, generation };
+        link.once(async |connection| {
+            rows::put_whole(connection, &old.site, &template, &changes, head).await
+        })?;
     }
-    Ok(Upgraded { version: KNOWN.to_string(), before: Some((found.to_string(), kept)), sites: done? })
+    link.once(async |connection| end(connection, &kept).await)?;
+    let sites = sites.into_iter().map(|old| old.site).collect();
+    Ok(Upgraded { version: KNOWN.to_string(), before: Some((found.to_string(), kept)), sites })
 }
 
 /// Begins the transaction, sets what is there aside, and makes tables and views of this version.
