@@ -17,6 +17,9 @@ use proptest::prelude::*;
 const GRID: f64 = 0.1;
 /// Far above what triangulating loses, far below what anybody draws, metres.
 const ROUNDING_M: f64 = 2e-6;
+/// What surely is free lies so near to a room at least, metres: about a corner the tangents meet at 1.41 times the distance
+/// that a disc keeps.
+const BESIDE_M: f64 = 0.05;
 const BOUNDS: Rect = Rect::new(0.0, 0.0, 7.0, 5.0);
 
 fn states() -> Vec<State> {
@@ -139,7 +142,7 @@ fn check_ways(
         for to in stateful() {
             let ends = [from, to].map(|(state, p)| (state, place(p)));
             if truth.is_surely_way(from, to) {
-                prop_assert!(is_way(layers, &component, ends, 0.02), "{from:?} to {to:?}");
+                prop_assert!(is_way(layers, &component, ends, BESIDE_M), "{from:?} to {to:?}");
             }
             if is_way(layers, &component, ends, 0.0) {
                 prop_assert!(truth.is_perhaps_way(from, to), "{from:?} to {to:?}");
@@ -195,14 +198,20 @@ proptest! {
             let common = layers.rooms[i].outline.common(&layers.rooms[j].outline);
             prop_assert!(kind == Kind::Change && common.is_some_and(|common| common.breadth() > 0.5 * ROUNDING_M));
         }
-        // A thin overlap may be left out beside a thicker one of the same room.
         let is_door = |a: usize, b: usize| found.contains(&(a.min(b), a.max(b), Kind::Door));
         for &(i, j, kind) in expected.difference(&found) {
-            prop_assert_eq!(kind, Kind::Change);
-            let overlap = layers.rooms[i].outline.common(&layers.rooms[j].outline).unwrap();
-            prop_assert!(overlap.breadth() < 0.1 + ROUNDING_M, "{:?}", overlap);
-            let mut instead = found.iter().filter(|(_, _, kind)| *kind == Kind::Change);
-            prop_assert!(instead.any(|&(a, b, _)| a == i && is_door(b, j) || b == j && is_door(a, i)));
+            let instead = if kind == Kind::Door {
+                // what parts them is a room, as thin as a rounding
+                let is_thin = |room: usize| layers.rooms[room].outline.breadth() < ROUNDING_M;
+                (0..layers.rooms.len()).any(|room| is_thin(room) && is_door(i, room) && is_door(room, j))
+            } else {
+                // A thin overlap may be left out beside a thicker one of the same room.
+                let overlap = layers.rooms[i].outline.common(&layers.rooms[j].outline).unwrap();
+                prop_assert!(overlap.breadth() < 0.1 + ROUNDING_M, "{:?}", overlap);
+                let mut changes = found.iter().filter(|(_, _, kind)| *kind == Kind::Change);
+                changes.any(|&(a, b, _)| a == i && is_door(b, j) || b == j && is_door(a, i))
+            };
+            prop_assert!(instead, "{:?} {:?}", layers.rooms[i], layers.rooms[j]);
         }
     }
 

@@ -42,8 +42,7 @@ fn triangulated(free: &Rings, lines: &[Segment]) -> Result<Cdt, String> {
     let mut numbers: HashMap<[u64; 2], usize> = HashMap::new();
     let (mut points, mut ends) = (Vec::new(), Vec::new());
     let mut number = |p: Point| {
-        // nothing is nearer to 0 than spade bears, and 0 has one sign
-        let [x, y] = [p.x, p.y].map(|v| if v.abs() < spade::MIN_ALLOWED_VALUE { 0.0 } else { v });
+        let [x, y] = [p.x, p.y].map(on_lattice);
         *numbers.entry([x.to_bits(), y.to_bits()]).or_insert_with(|| {
             points.push(Point2::new(x, y));
             points.len() - 1
@@ -57,10 +56,18 @@ fn triangulated(free: &Rings, lines: &[Segment]) -> Result<Cdt, String> {
     for [a, b] in ends.into_iter().filter(|[a, b]| a != b) {
         let [a, b] = [a, b].map(FixedVertexHandle::from_index);
         if !cdt.exists_constraint(a, b) {
-            cdt.add_constraint_and_split(a, b, |p| p);
+            cdt.add_constraint_and_split(a, b, |p| Point2::new(on_lattice(p.x), on_lattice(p.y)));
         }
     }
     Ok(cdt)
+}
+
+/// The nearest whole nanometre. Sides that should lie on one line then do: where they are a rounding apart, spade may split
+/// one at a crossing that it takes for a corner further off, and a line goes astray. Nor is anything nearer to 0 than
+/// spade bears.
+fn on_lattice(metres: f64) -> f64 {
+    // 0 has one sign
+    (metres * 1e9).round() / 1e9 + 0.0
 }
 
 /// A side of a piece, with the piece to its left.
