@@ -338,11 +338,11 @@ impl Live {
         self.memory.state.asked()
     }
 
-    /// A copy of what is known, in memory only, to try edits on.
     pub(crate) fn generation(&self) -> u64 {
         self.memory.state.generation
     }
 
+    /// A copy of what is known, in memory only, to try edits on.
     pub fn fork(&self) -> State {
         self.memory.state.fork()
     }
