@@ -31,5 +31,5 @@ for n in $SIZES; do
   "$built/adit" new "$site" --no-map > /dev/null
   mv "$WORK/site-$n.db" "$site/site.db"
   "$built/adit" copy "$site" "postgres://adit@localhost/postgres?host=$cluster&site=$n" > /dev/null
-  "$PYTHON" "$HERE/postgres.py" "$cluster" "$WORK/g/$n" "$keep"
+  "$PYTHON" "$HERE/postgres.py" "$programs" "$cluster" "$WORK/g/$n" "$keep"
 done
