@@ -15,6 +15,14 @@ pub enum Failure {
         /// What was said.
         reason: String,
     },
+    /// The connection cannot be made as safe as the URL asks.
+    #[error("there is no safe connection to the database {place}: {reason}")]
+    Tls {
+        /// Where it is.
+        place: String,
+        /// What was said.
+        reason: String,
+    },
     /// The database does not let this user in.
     #[error("the database {place} lets nobody in so: {reason}")]
     LetIn {

@@ -134,6 +134,35 @@ impl Cluster {
         }
     }
 
+    /// Lets it offer TLS from now on, as `127.0.0.1`. Gives the certificate of who vouches for it.
+    pub fn secure(&self) -> PathBuf {
+        self.certify("ca", &["-x509", "-days", "2"]);
+        self.certify("server", &[]);
+        std::fs::write(self.path().join("names"), "subjectAltName = IP:127.0.0.1").expect("a file");
+        let signed = "x509 -req -in server.pem -CA ca.pem -CAkey ca.key -CAcreateserial -days 2 -extfile names -out signed.pem";
+        self.openssl(&signed.split(' ').collect::<Vec<_>>());
+        for (setting, file) in [("ssl_cert_file", "signed.pem"), ("ssl_key_file", "server.key")] {
+            self.ask(&format!("ALTER SYSTEM SET {setting} = '{}'", self.path().join(file).display()));
+        }
+        self.ask("ALTER SYSTEM SET ssl = on");
+        self.ask("SELECT pg_reload_conf()");
+        self.path().join("ca.pem")
+    }
+
+    /// Makes a key, and beside it a certificate, or the request for one.
+    fn certify(&self, name: &str, more: &[&str]) {
+        let (key, certificate, subject) =
+            (format!("{name}.key"), format!("{name}.pem"), format!("/CN=a test's {name}"));
+        let made = ["req", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:prime256v1", "-nodes"];
+        let files = ["-keyout", &key, "-out", &certificate, "-subj", &subject];
+        self.openssl(&[&made[..], &files, more].concat());
+    }
+
+    fn openssl(&self, arguments: &[&str]) {
+        let made = self.run("/usr/bin/openssl", arguments);
+        assert!(made.status.success(), "{}", String::from_utf8_lossy(&made.stderr));
+    }
+
     /// Ends it as `kill -9` would.
     pub fn kill(&self) {
         let file = self.path().join("data/postmaster.pid");

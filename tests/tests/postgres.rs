@@ -7,6 +7,8 @@ mod copies;
 mod failures;
 #[path = "postgres/lease.rs"]
 mod lease;
+#[path = "postgres/safe.rs"]
+mod safe;
 #[path = "postgres/several.rs"]
 mod several;
 #[path = "postgres/storm.rs"]

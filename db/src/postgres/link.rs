@@ -147,6 +147,9 @@ impl Link {
     fn said(&self, error: Error) -> Error {
         let Error::Sql(error) = error else { return error };
         let place = self.place.shown();
+        if let Some(reason) = unsafe_for(&error) {
+            return Failure::Tls { place, reason }.into();
+        }
         let database = error.as_database_error();
         let reason = database.map_or_else(|| error.to_string(), |error| error.message().to_owned());
         let failure = match database.and_then(|error| error.code()).as_deref() {
@@ -175,15 +178,24 @@ async fn open(options: &PgConnectOptions) -> sqlx::Result<PgConnection> {
     Ok(connection)
 }
 
+/// Why TLS is not as it was asked for.
+fn unsafe_for(error: &sqlx::Error) -> Option<String> {
+    match error {
+        sqlx::Error::Tls(reason) | sqlx::Error::Configuration(reason) => Some(reason.to_string()),
+        // what rustls says of a certificate
+        sqlx::Error::Io(reason) if reason.kind() == std::io::ErrorKind::InvalidData => {
+            Some(reason.to_string())
+        }
+        _ => None,
+    }
+}
+
 /// Whether the connection serves no more, or never did.
 fn is_broken(error: &sqlx::Error) -> bool {
     match error.as_database_error().and_then(|error| error.code()) {
         // told to end, starting, too many connections, lost in a transaction
         Some(code) => code.starts_with("57P") || code.starts_with("08") || code == "53300" || code == "25P03",
-        None => matches!(
-            error,
-            sqlx::Error::Io(_) | sqlx::Error::Protocol(_) | sqlx::Error::Tls(_) | sqlx::Error::WorkerCrashed
-        ),
+        None => matches!(error, sqlx::Error::Io(_) | sqlx::Error::Protocol(_) | sqlx::Error::WorkerCrashed),
     }
 }
 

@@ -12,6 +12,13 @@ use crate::failure::Failure;
 /// How a URL of PostgreSQL begins.
 const SCHEMES: [&str; 2] = ["postgres://", "postgresql://"];
 
+/// What may stand behind the question mark besides `site` and the [files](FILES), as libpq has it.
+const PARAMETERS: [&str; 9] =
+    ["application_name", "dbname", "host", "hostaddr", "options", "password", "port", "sslmode", "user"];
+
+/// Those that name files: whom to trust, and how to show who one is.
+const FILES: [&str; 3] = ["sslrootcert", "sslcert", "sslkey"];
+
 /// The longest name of a site, bytes.
 const NAME: usize = 200;
 
@@ -37,17 +44,28 @@ impl Place {
         }
         let (address, query) = text.split_once('?').unwrap_or((text, ""));
         let mut site = None;
-        let rest: Vec<&str> = query
-            .split('&')
-            .filter(|part| {
-                let Some(name) = part.strip_prefix("site=") else { return !part.is_empty() };
-                site = Some(name.replace('+', " "));
-                false
-            })
-            .collect();
-        let site = site
-            .map(|name| decoded(&name).ok_or_else(|| refused("the site's name is no text")))
-            .transpose()?;
+        let mut rest = Vec::new();
+        for part in query.split('&').filter(|part| !part.is_empty()) {
+            let (name, value) = part.split_once('=').unwrap_or((part, ""));
+            let value =
+                decoded(&value.replace('+', " ")).ok_or_else(|| refused(&format!("`{name}` is no text")))?;
+            match name {
+                "site" => {
+                    site = Some(value);
+                    continue;
+                }
+                name if FILES.contains(&name) => std::fs::read(&value)
+                    .map(drop)
+                    .map_err(|error| refused(&format!("the file `{value}` that `{name}` names: {error}")))?,
+                name if PARAMETERS.contains(&name) => {}
+                // who mistypes `sslmode` would get a connection that is not safe
+                name => {
+                    let known = [&["site"][..], &PARAMETERS, &FILES].concat().join(", ");
+                    return Err(refused(&format!("it has no `{name}`; there are {known}")).into());
+                }
+            }
+            rest.push(part);
+        }
         if site.as_deref().is_some_and(|name| name.is_empty() || name.len() > NAME || name.contains('\0')) {
             return Err(refused("the site's name is empty, or longer than 200 bytes").into());
         }
@@ -122,6 +140,12 @@ mod tests {
         assert_eq!(Place::parse("postgres:///plant?host=/run/pg").unwrap().shown(), "plant at /run/pg");
         for bad in ["mysql://x/y", "postgres://h/d?site=", "postgres://h:port/d", "postgres://h/d?site=%ff"] {
             assert!(Place::parse(bad).is_err(), "{bad}");
+        }
+        for (bad, said) in [
+            ("postgres://h/d?sslmod=require", "`sslmod`"),
+            ("postgres://h/d?sslrootcert=/no/such.pem&sslmode=verify-full", "`/no/such.pem`"),
+        ] {
+            assert!(Place::parse(bad).unwrap_err().to_string().contains(said), "{bad}");
         }
     }
 }

@@ -223,6 +223,8 @@ codes! {
     PostgresSiteExists = "postgres/site-exists", CONFLICT;
     /// PostgreSQL refused a statement.
     PostgresSql = "postgres/sql", INTERNAL_SERVER_ERROR;
+    /// The connection to PostgreSQL cannot be made as safe as `sslmode` asks: no TLS there, or a certificate that does not hold.
+    PostgresTls = "postgres/tls", INTERNAL_SERVER_ERROR;
     /// The connection broke while an edit was kept: look whether it was made before you make it again.
     PostgresUnknownOutcome = "postgres/unknown-outcome", SERVICE_UNAVAILABLE;
     /// PostgreSQL has no site of this name.
@@ -568,6 +570,7 @@ impl From<&Failure> for Code {
     fn from(failure: &Failure) -> Self {
         match failure {
             Failure::Url(_) => Self::PostgresUrl,
+            Failure::Tls { .. } => Self::PostgresTls,
             Failure::LetIn { .. } => Self::PostgresLetIn,
             Failure::Rights { .. } => Self::PostgresRights,
             Failure::NoSites(_) | Failure::UnknownSite { .. } => Self::PostgresUnknownSite,
