@@ -51,7 +51,10 @@ impl Way {
     ) -> Self {
         let mut legs: Vec<Leg> = Vec::new();
         let (mut room, mut from, mut cost) = (room, start, 0.0);
-        for (door, to, next) in doors {
+        for (mut door, to, next) in doors {
+            if let Some(last) = legs.last_mut().filter(|last| returns(graph, last, door, next)) {
+                (last.door, room, door) = (None, next, None);
+            }
             let hardness = walked(graph, room, from, to);
             cost += hardness + door.and_then(|door| graph.passage(door)).unwrap_or(0.0);
             legs.push(Leg { room, from, to, hardness, door, cost });
@@ -91,6 +94,12 @@ impl Way {
     pub fn length(&self) -> f64 {
         self.legs.iter().map(Leg::length).sum()
     }
+}
+
+/// Whether a way that has just left a room comes back by the same door: then it has gone along the door, and may as well have
+/// stayed.
+fn returns(graph: &RouteGraph, last: &Leg, door: Option<DoorIndex>, next: RoomIndex) -> bool {
+    door.is_some_and(|door| last.door == Some(door) && last.room == next && graph.is_free(door))
 }
 
 fn walked(graph: &RouteGraph, room: RoomIndex, from: Point, to: Point) -> f64 {
