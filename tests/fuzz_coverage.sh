@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # tests/fuzz_coverage.sh [SECONDS]: tries each reader with texts that nobody wrote (tests/tests/fuzz.rs) for so many seconds, and
-# says how many they were, and how much of the reader they ran. Needs rustup, which brings LLVM's tools.
+# says how many they were, and how much of the reader they ran. Requests over HTTP are not among them: who reads them is another
+# program. Needs rustup, which brings LLVM's tools.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 seconds="${1:-60}"
@@ -11,8 +12,8 @@ rm -f "$made"/*.profraw
 tools="$(rustc --print sysroot)/lib/rustlib/$(rustc --version --verbose | sed -n 's/^host: //p')/bin"
 [ -x "$tools/llvm-cov" ] || rustup component add llvm-tools
 
-# Of ours alone, so that others' crates are compiled no second time. Counters lie in the file from the beginning, since a
-# service is killed at the end.
+# Of ours alone, so that others' crates are compiled no second time. Counters lie in the file from the beginning, so that a
+# text that ends the program is counted, too.
 printf '#!/bin/sh\nexec "$@" -C instrument-coverage -C llvm-args=-runtime-counter-relocation\n' >"$made/rustc"
 chmod +x "$made/rustc"
 export RUSTC_WORKSPACE_WRAPPER="$made/rustc" LLVM_PROFILE_FILE="$made/building-%p.profraw"
@@ -39,7 +40,6 @@ tables_of_csv                        kb/src/site/(tables|sheet)
 workbooks                            kb/src/site/(tables|sheet)
 zone_sets                            planners/src/read/zone_set
 questions_in_sql                     db/src/(guard|query)
-requests                             kb/src/serve
 '
 printf '%-37s %10s %10s %9s %9s %7s\n' reader tried read slowest lines regions
 while read -r test sources; do
