@@ -1,7 +1,7 @@
 //! Lee's section 4: `cargo bench -p adit-planners --bench assembly`. The decision is that of Table 1 at each junction,
 //! without a rule engine, so that what is measured is the way, its sweep check included.
 
-#[path = "../tests/assembly/table1.rs"]
+#[path = "../tests/specification/assembly/table1.rs"]
 mod table1;
 
 use adit_planners::channels::assembly::{Assembly, Cuboid, channels_of};

@@ -1,9 +1,9 @@
 //! Floor plans of 25 rooms: `cargo bench -p adit-planners --bench floor_plan`. `plant` has rooms and doors, `furnished`
 //! has pillars and free-standing walls in each room as well.
 
-#[path = "../tests/floor_plan/dice.rs"]
+#[path = "../tests/specification/floor_plan/dice.rs"]
 mod dice;
-#[path = "../tests/floor_plan/random_plan.rs"]
+#[path = "../tests/specification/floor_plan/random_plan.rs"]
 mod random_plan;
 
 use std::path::Path;

@@ -6,7 +6,7 @@
 
 #[path = "support/scan.rs"]
 mod scan;
-#[path = "../tests/navigation/table.rs"]
+#[path = "../tests/specification/navigation/table.rs"]
 mod table;
 #[path = "support/walls.rs"]
 mod walls;

@@ -4,7 +4,7 @@
 //! `cargo run --release -p adit-planners --example adapt_curve -- FILE.json [RUNS] [NAME] [SEED]`
 #![allow(clippy::print_stdout, missing_docs)]
 
-#[path = "../tests/adapt/arm_scenario.rs"]
+#[path = "../tests/specification/adapt/arm_scenario.rs"]
 mod arm_scenario;
 
 use std::time::Instant;

@@ -3,7 +3,7 @@
 //! With `PICTURE` in the environment each result is drawn over the truth.
 #![allow(clippy::print_stdout, clippy::print_stderr)] // an example shows what it found
 
-#[path = "../tests/navigation/table.rs"]
+#[path = "../tests/specification/navigation/table.rs"]
 mod table;
 
 use std::path::Path;

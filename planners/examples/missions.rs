@@ -3,7 +3,7 @@
 //! A plan is a floor plan (`.json`) or a map as sites have it (`.toml`, `.yaml`).
 #![allow(clippy::print_stdout, clippy::print_stderr)] // an example shows what it found
 
-#[path = "../tests/navigation/table.rs"]
+#[path = "../tests/specification/navigation/table.rs"]
 mod table;
 
 use std::ops::Range;

@@ -11,11 +11,11 @@ mod same_as_tables;
 mod support;
 
 // What the planners' property tests steer by.
-#[path = "../../../planners/tests/assembly/chains.rs"]
+#[path = "../../../planners/tests/specification/assembly/chains.rs"]
 #[allow(dead_code, clippy::unwrap_used)] // the planners' tests use more of it, and stop at a surprise
 mod chains;
-#[path = "../../../planners/tests/assembly/table1.rs"]
+#[path = "../../../planners/tests/specification/assembly/table1.rs"]
 mod table1;
-#[path = "../../../planners/tests/corridor/table2.rs"]
+#[path = "../../../planners/tests/specification/corridor/table2.rs"]
 #[allow(dead_code)] // the planners' tests use more of it
 mod table2;

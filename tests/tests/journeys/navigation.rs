@@ -17,5 +17,5 @@ mod told;
 mod why;
 
 // What the planners' tests judge by.
-#[path = "../../../planners/tests/navigation/table.rs"]
+#[path = "../../../planners/tests/specification/navigation/table.rs"]
 mod table;
