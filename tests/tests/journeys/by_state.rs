@@ -79,6 +79,20 @@ fn a_rule_without_a_berth_gives_the_shortest_way() {
     assert!(touches < 1e-5 && tight < cost, "{tight} and {cost}");
 }
 
+/// Where the ground is cut into rooms beside a wall, a way that keeps off it runs along the line between two of them.
+#[test]
+fn a_robot_passes_no_door_to_and_fro() {
+    let site = TestSite::example("hospital").built();
+    for hardness in ["2", "8", "20"] {
+        site.adit("tune", &["robots", "SIDE-STAND", "hardness", hardness]).expect_status(0);
+        let again = site.sqlite3(
+            "SELECT start, goal, place, count(*) FROM action_sequence WHERE kind = 'door'
+             GROUP BY robot, start, goal, place HAVING count(*) > 1",
+        );
+        assert!(again.is_empty(), "SIDE-STAND {hardness}: {again:?}");
+    }
+}
+
 #[test]
 fn the_costs_of_the_steps_add_up() {
     let site = TestSite::example("hospital").built();

@@ -9,6 +9,9 @@ use super::{HALVINGS, Passed};
 use crate::geometry::Point;
 use crate::geometry::tolerance::SNAP_M;
 
+/// A way that goes no farther into the next room is still in this one, metres.
+const UNSEEN_M: f64 = 0.01;
+
 impl Run {
     /// Whether it keeps no farther off walls than the tight way.
     pub fn is_as_tight(&self) -> bool {
@@ -62,7 +65,9 @@ impl Run {
                 if !self.is_free(graph, room, at, leg) || !self.is_free(graph, to, at, leg) {
                     return Err(number);
                 }
-                passed.push((Some(door), at, to));
+                if !self.stays(graph, &mut passed, (Some(door), at, to), leg) {
+                    passed.push((Some(door), at, to));
+                }
                 (room, done) = (to, share);
                 through.push(room);
             }
@@ -86,6 +91,30 @@ impl Run {
             passed.push((Some(exit.ok_or(last)?.door), end, into));
         }
         Ok(passed)
+    }
+
+    /// Whether a way that comes back into a room by the door by which it left has been nowhere else all the while, but for
+    /// what nobody sees: then it had better not have left.
+    fn stays(
+        &self,
+        graph: &RouteGraph,
+        passed: &mut Vec<Passed>,
+        (door, at, room): Passed,
+        leg: Segment,
+    ) -> bool {
+        let Some(left) = passed.iter().rposition(|(door, ..)| door.is_some()) else { return false };
+        let is_here = |p: Point, leg: Segment| {
+            graph[room].outline.distance(p) <= UNSEEN_M || self.is_free(graph, room, p, leg)
+        };
+        let is_back = passed[left].0 == door
+            && passed[left].2 != room
+            && passed[left..].windows(2).all(|ends| is_here(ends[1].1, Segment::new(ends[0].1, ends[1].1)))
+            && is_here(at, leg);
+        if is_back {
+            passed.remove(left);
+            passed[left..].iter_mut().for_each(|passed| passed.2 = room);
+        }
+        is_back
     }
 
     /// The door by which a way leaves a room for good about the arc at one of its corners.

@@ -3,7 +3,7 @@
 use adit_planners::geometry::{Point, Rect, Segment};
 use adit_planners::layers::{Crossing, Kind, Room, State, cut_layers};
 use adit_planners::routes::{
-    Berth, Crossing as Where, Goal, RoomIndex, RouteDoor, RouteGraph, RouteRoom, Start, Walking, Way,
+    Berth, Crossing as Where, Goal, Leg, RoomIndex, RouteDoor, RouteGraph, RouteRoom, Start, Walking, Way,
 };
 use adit_planners::world::{Bridge, Obstacle, Shape, World};
 use petgraph::algo::dijkstra;
@@ -115,6 +115,18 @@ pub fn check_way(graph: &RouteGraph, way: &Way, from: Point, to: Point) -> Resul
         at = leg.to;
     }
     prop_assert!(at.distance(to) < 1e-9 && (way.cost - cost).abs() < 1e-9);
+    if graph.closed().is_empty() { check_stays(graph, way) } else { Ok(()) }
+}
+
+/// Nobody leaves a room to come back by the same door, all in the room's own outline.
+fn check_stays(graph: &RouteGraph, way: &Way) -> Result<(), TestCaseError> {
+    let passed: Vec<usize> = (0..way.legs.len()).filter(|&leg| way.legs[leg].door.is_some()).collect();
+    for pair in passed.windows(2).filter(|pair| way.legs[pair[0]].door == way.legs[pair[1]].door) {
+        let outside = &way.legs[pair[0] + 1..=pair[1]];
+        let room = &graph[way.legs[pair[0]].room].outline;
+        let is_out = |leg: &Leg| room.distance(leg.from).max(room.distance(leg.to)) > 1e-6;
+        prop_assert!(outside.iter().any(is_out), "out and back by one door: {outside:?}");
+    }
     Ok(())
 }
 
