@@ -11,6 +11,7 @@ pub mod service;
 pub mod slanted;
 
 use std::collections::BTreeMap;
+use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -28,14 +29,29 @@ pub fn adit() -> &'static Path {
     PROGRAM.get_or_init(|| {
         let exe = std::env::current_exe().expect("a test knows its own path");
         let profile = exe.ancestors().nth(2).expect("tests run in target/PROFILE/deps").to_path_buf();
-        let mut build = Command::new(env!("CARGO"));
+        let mut build = cargo();
         build.args(["build", "--quiet", "--locked", "--package", "adit"]);
         if profile.ends_with("release") {
             build.arg("--release");
         }
-        assert!(build.current_dir(repository()).status().expect("cargo runs").success());
+        assert!(build.status().expect("cargo runs").success());
         profile.join("adit")
     })
+}
+
+/// Cargo, in the repository, as whoever runs the tests calls it. What it tells a test of the test's package is left out: build
+/// scripts of others (ring's) would look at it, and all that stands on them would be built anew.
+pub fn cargo() -> Command {
+    let mut cargo = Command::new(env!("CARGO"));
+    let of_package = |name: &OsString| {
+        let name = name.to_string_lossy();
+        name.starts_with("CARGO_PKG_") || name.starts_with("CARGO_MANIFEST_")
+    };
+    for name in std::env::vars_os().map(|(name, _)| name).filter(of_package) {
+        cargo.env_remove(name);
+    }
+    cargo.current_dir(repository());
+    cargo
 }
 
 /// The top folder of the repository.

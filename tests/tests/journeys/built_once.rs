@@ -1,15 +1,14 @@
 //! What the demo built is not built again for the tests: each crate has the features that the tests' crates want, too.
 
 use std::collections::BTreeSet;
-use std::process::Command;
 
-use adit_tests::{Ran, repository};
+use adit_tests::{Ran, cargo};
 
 /// The crates of others in what is built, with version and features.
 fn crates(of: &[&str]) -> BTreeSet<String> {
-    let mut cargo = Command::new(env!("CARGO"));
+    let mut cargo = cargo();
     cargo.args(["tree", "--locked", "--prefix", "none", "--format", "{p} [{f}]"]).args(of);
-    let ran = cargo.current_dir(repository()).output().expect("cargo runs");
+    let ran = cargo.output().expect("cargo runs");
     let said = Ran::new(&ran).expecting(0).stdout;
     // a crate that was shown before is marked so; our own have a path behind their version
     let lines = said.lines().map(|line| line.trim_end_matches(" (*)"));

@@ -6,7 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-use adit_tests::{Ran, adit, repository};
+use adit_tests::{Ran, adit, cargo, repository};
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -156,10 +156,10 @@ fn the_bill_of_materials_has_all_that_is_linked_with_checksums_and_names_nothing
 fn crates_are_packed_with_rules_page_licences_and_a_readme() {
     let made = Made::new();
     let crates = ["adit-engine", "adit-planners", "adit-db", "adit", "adit-site", "adit-fleet", "adit-ros"];
-    let mut cargo = Command::new(env!("CARGO"));
+    let mut cargo = cargo();
     cargo.args(["package", "--locked", "--allow-dirty", "--no-verify", "--quiet"]);
     cargo.args(crates.iter().flat_map(|name| ["--package", name]));
-    done(cargo.current_dir(repository()).env("CARGO_TARGET_DIR", made.0.path()).output());
+    done(cargo.env("CARGO_TARGET_DIR", made.0.path()).output());
     for name in crates {
         let packed =
             made.0.path().join("package").join(format!("{name}-{}.crate", env!("CARGO_PKG_VERSION")));

@@ -3,7 +3,7 @@
 
 use std::process::Command;
 
-use adit_tests::{Ran, TestSite, adit, repository};
+use adit_tests::{Ran, TestSite, adit, cargo, repository};
 
 const ROUTE: &str = "SELECT group_concat(place, ' ') FROM \
                      (SELECT place FROM action_sequence WHERE start = 'f' AND goal = 'e' ORDER BY step)";
@@ -26,7 +26,7 @@ fn site_with_a_kiosk() -> TestSite {
 
 fn build_with_the_example_planner(site: &TestSite) {
     let program = adit().with_file_name("adit-example-planner");
-    let mut build = Command::new(env!("CARGO"));
+    let mut build = cargo();
     // of the whole workspace, as the tests are built: of one package alone, crates with fewer features would be built anew
     build.args([
         "build",
@@ -41,7 +41,7 @@ fn build_with_the_example_planner(site: &TestSite) {
     if program.ancestors().nth(1).is_some_and(|profile| profile.ends_with("release")) {
         build.arg("--release");
     }
-    assert!(build.current_dir(repository()).status().unwrap().success());
+    assert!(build.status().unwrap().success());
     Ran::new(&Command::new(program).arg(site.path()).output().unwrap()).expect_status(0);
 }
 
