@@ -144,7 +144,8 @@ impl Fuzz {
             let wrong = match heard {
                 Ok(Ok(is_read)) => {
                     good += u64::from(is_read);
-                    if is_read && text.len() < LONGEST / 4 {
+                    if is_read && text.len() < LONGEST / 4 && !text.is_empty() && !self.seeds.contains(&text)
+                    {
                         if self.seeds.len() < first + KEPT {
                             self.seeds.push(text.clone());
                         } else {

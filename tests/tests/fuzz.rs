@@ -3,21 +3,28 @@
 #![allow(clippy::unwrap_used)]
 
 use std::fs;
-use std::io::{Read, Write};
-use std::net::TcpStream;
+use std::io::{BufRead, BufReader, Read, Write};
+use std::net::{TcpListener, TcpStream};
 use std::path::Path;
+use std::process::{self, ExitCode, Stdio};
+use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
+use adit::cli::{self, Cli};
+use adit::navigation::body::{Link, Remote, Used};
 use adit::{KnowledgeBase, Silent};
 use adit_db::Store;
 use adit_db::query::Limits;
 use adit_engine::{RuleBase, SourceFile};
+use adit_planners::body::{Body, Command};
 use adit_planners::lanes::read_lane_graph;
 use adit_planners::read::{MapSettings, Overlay, read_world};
+use adit_planners::rim::Rim;
 use adit_tests::fuzz::{Fuzz, mutated, png, scattered, stored, zip};
 use adit_tests::oracle::random::Chance;
 use adit_tests::service::Service;
-use adit_tests::{TestSite, repository, shared};
+use adit_tests::{TestSite, adit, repository, shared};
+use clap::Parser;
 use serde_json::json;
 
 /// The files of a folder and those beneath it that end so.
@@ -291,7 +298,27 @@ fn workbooks() {
     );
 }
 
-/// Masks and zone sets, laid over the paper's floor.
+/// A mask laid over the paper's floor: what describes it, and its image.
+#[test]
+fn masks() {
+    let described = MAP.replace("0.05", "0.5");
+    let site = TestSite::example("paper");
+    let kinds = [
+        "kind = \"keepout\"",
+        "kind = \"speed\"\nname = \"slow\"\nbase = 1.5\nmultiplier = -0.01\nunit = \"m/s\"",
+    ];
+    let of = |kind: &str| format!("\n[[mask]]\nfile = \"mask.yaml\"\n{kind}\n");
+    site.write("site.toml", site.read("site.toml") + kinds.map(of).concat().as_str());
+    let seeds = [vec![described.clone().into(), pgm()], of_others("data/mir_robot", ".yaml")].concat();
+    Fuzz::new("mask", seeds).run(move |text| {
+        let is_image = text.starts_with(b"P");
+        site.write("mask.yaml", if is_image { described.as_bytes() } else { text });
+        site.write("floor.pgm", if is_image { text.to_vec() } else { pgm() });
+        KnowledgeBase::open(site.path()).and_then(|knowledge| knowledge.site().measured_world()).is_ok()
+    });
+}
+
+/// Zone sets, laid over the paper's floor.
 #[test]
 fn zone_sets() {
     let set = json!({"zoneSet": {"mapId": "m", "zoneSetId": "s", "zones": [
@@ -304,6 +331,128 @@ fn zone_sets() {
     Fuzz::new("zones", seeds).run(move |text| {
         site.write("zones.json", text);
         KnowledgeBase::open(site.path()).and_then(|knowledge| knowledge.site().measured_world()).is_ok()
+    });
+}
+
+/// What the program does when it is called so.
+fn called(arguments: &[&str]) -> bool {
+    let ended = cli::run(&Cli::try_parse_from([&["adit"], arguments].concat()).unwrap());
+    ended == ExitCode::SUCCESS
+}
+
+#[test]
+fn files_of_tokens() {
+    let token = |name: &str, roles: &str| {
+        format!("[[token]]\nname = \"{name}\"\nroles = [{roles}]\nsha256 = \"{}\"\n", "0".repeat(64))
+    };
+    let seeds =
+        [token("shift", "\"read\", \"tune\""), token("a", "\"read\"") + token("b", "\"admin\"").as_str()];
+    let site = TestSite::example("paper");
+    let path = site.path().to_str().unwrap().to_owned();
+    Fuzz::new("tokens", seeds.map(String::into_bytes).into()).run(move |text| {
+        site.write("tokens.toml", text);
+        called(&["token", &path, "--json", "list"])
+    });
+}
+
+const FLOOR: &str = "name = \"floor\"\nmap = \"map.toml\"\nrobots = \"robots.toml\"\nrooms = \"by-state\"\n";
+
+/// What a body is told: the first line is what it is greeted with.
+#[test]
+fn orders_to_bodies() {
+    let site = TestSite::example("starter").with("site.toml", FLOOR).built();
+    let hello = r#"{"type": "hello", "protocol": 1, "shapes": ["STAND", "SQUAT"]}"#;
+    let orders = [
+        r#"{"type": "sense"}"#,
+        r#"{"type": "turn", "by_rad": 1.5}"#,
+        r#"{"type": "move", "distance_m": 0.8, "speed_m_s": 0.5}"#,
+        r#"{"type": "change", "shape": "SQUAT"}"#,
+        r#"{"type": "stop"}"#,
+        r#"{"type": "move", "distance_m": 0.8, "speed_m_s": 0.5, "bearing_rad": 0.0}"#,
+        r#"{"type": "bye"}"#,
+    ];
+    let all = [&[hello], &orders[..]].concat().join("\n") + "\n";
+    let each = orders.map(|order| format!("{hello}\n{order}\n{}\n", orders[0]));
+    let seeds = each.into_iter().chain([all]).map(String::into_bytes).collect();
+    Fuzz::new("orders", seeds).run(move |text| {
+        let mut body = process::Command::new(adit());
+        body.arg("body").arg(site.path()).arg("home");
+        let mut body =
+            body.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::null()).spawn().unwrap();
+        // who hangs up early breaks the pipe
+        body.stdin.take().unwrap().write_all(text).ok();
+        let ended = body.wait_with_output().unwrap();
+        assert!(ended.status.code().is_some_and(|code| code != 101), "{}", ended.status);
+        ended.status.success() && !utf8(&ended.stdout).contains("refused")
+    });
+}
+
+/// A body: what it answers to `hello` and to `sense` are lines of a text, what else it answers is good.
+fn body_of(text: &Mutex<Vec<u8>>, stream: &TcpStream) {
+    let text = text.lock().unwrap().clone();
+    let mut lines = text.split_inclusive(|byte| *byte == b'\n');
+    for asked in BufReader::new(stream).lines() {
+        let Ok(asked) = asked else { return };
+        let answer = if asked.contains("\"hello\"") || asked.contains("\"sense\"") {
+            lines.next()
+        } else if asked.contains("\"bye\"") {
+            Some(&b"{\"type\": \"bye\"}\n"[..])
+        } else {
+            Some(&b"{\"type\": \"accepted\"}\n"[..])
+        };
+        let mut output = stream;
+        let is_said =
+            answer.is_some_and(|answer| output.write_all(answer).is_ok() && answer.ends_with(b"\n"));
+        if !is_said {
+            return;
+        }
+    }
+}
+
+/// What bodies answer, until they have said all.
+#[test]
+fn answers_of_bodies() {
+    let shape = |name: &str, radius: f64| json!({"name": name, "radius_m": radius});
+    let shapes = [shape("STAND", 0.2), shape("SIDE-STAND", 0.15), shape("SQUAT", 0.2)];
+    let hello = json!({"type": "hello", "protocol": 1, "shapes": shapes, "shape": "STAND", "directions": 8, "range_m": 4.0, "has_skirt": true});
+    let place = |along: f64| json!({"x_m": along, "y_m": 0.0, "heading_rad": 0.0});
+    let sensed = |step: u32, is_busy: bool| {
+        let along = 0.1 * f64::from(step);
+        let echo = |beam: u32| {
+            json!({"bearing_rad": 0.785 * f64::from(beam), "odometry": place(along),
+                   "range_m": if beam.is_multiple_of(3) { json!(0.6 + 0.1 * f64::from(beam)) } else { json!(null) }})
+        };
+        json!({"type": "sensed", "time_s": f64::from(step), "odometry": place(along), "readings": (0..8).map(echo).collect::<Vec<_>>(),
+               "contact": if step == 6 { json!({"bearing_rad": 0.1}) } else { json!(null) }, "is_busy": is_busy, "shape": "STAND"})
+    };
+    let told = |count: u32| -> Vec<u8> {
+        let all = (0..count).map(|step| sensed(step, !step.is_multiple_of(2)).to_string());
+        [hello.to_string()].into_iter().chain(all).map(|line| line + "\n").collect::<String>().into()
+    };
+    let listener = TcpListener::bind("127.0.0.1:0").unwrap();
+    let address = format!("tcp://{}", listener.local_addr().unwrap());
+    let script = Arc::new(Mutex::new(Vec::new()));
+    let said = Arc::clone(&script);
+    std::thread::spawn(move || listener.incoming().flatten().for_each(|stream| body_of(&said, &stream)));
+    let used =
+        |name: Option<&str>, width: f64| Used { name: name.map(str::to_owned), rim: Rim::of(width, None) };
+    let shapes = [used(None, 0.6), used(Some("SIDE-STAND"), 0.35), used(Some("SQUAT"), 0.8)];
+    Fuzz::new("answers", vec![told(2), told(4), told(12)]).run(move |text| {
+        *script.lock().unwrap() = text.to_vec();
+        let mut body = Remote::greet(Link::open(&address, Duration::from_secs(2)), &shapes);
+        let commands = [
+            Command::Move { distance_m: 0.5, bearing: 0.0, speed_m_s: 0.5 },
+            Command::Turn { by: 1.0 },
+            Command::Change { to: 2 },
+            Command::Stop,
+        ];
+        for command in commands.into_iter().cycle() {
+            if body.sense().is_err() {
+                break;
+            }
+            body.command(command);
+        }
+        body.silence().is_some_and(|why| why.contains("it ended before it answered `sense`"))
     });
 }
 

@@ -4,12 +4,13 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
+use miette::NamedSource;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use subtle::ConstantTimeEq;
 
 use super::role::{Caller, Role};
-use crate::error::{Code, Error, Result};
+use crate::error::{Code, Error, Finding, Result};
 use crate::site::whole;
 
 /// The file's name, in the folder of the site.
@@ -58,6 +59,10 @@ pub fn none(file: &Path) -> Error {
     Error::said(Code::TokensNone, message, Some(help.to_owned()))
 }
 
+fn unreadable(message: String) -> Finding {
+    Finding::said(Code::TokensUnreadable, message, Some("`adit token` writes this file".to_owned()))
+}
+
 impl Tokens {
     /// Reads the file; `None` where there is none, so that no token is needed.
     pub fn read(file: &Path) -> Result<Option<Self>> {
@@ -67,13 +72,36 @@ impl Tokens {
     /// The tokens that a file's text holds.
     pub fn of(file: &Path, text: &Text) -> Result<Option<Self>> {
         match text {
-            Ok(text) => toml::from_str(text).map(Some).map_err(|error| {
-                let message = format!("{}: {}", file.display(), error.message());
-                Error::said(Code::TokensUnreadable, message, Some("`adit token` writes this file".to_owned()))
-            }),
+            Ok(text) => {
+                let read: Self = toml::from_str(text).map_err(|error| {
+                    let place = NamedSource::new(file.display().to_string(), text.clone());
+                    let finding = unreadable(error.message().replace('\n', ", "));
+                    Error::all([finding.at(place, error.span().unwrap_or_default())])
+                })?;
+                read.check()
+                    .map_err(|wrong| Error::all([unreadable(format!("{}: {wrong}", file.display()))]))?;
+                Ok(Some(read))
+            }
             Err(io::ErrorKind::NotFound) => Ok(None),
             Err(kind) => Err(Error::io("read", file, &(*kind).into())),
         }
+    }
+
+    /// Whether each can let somebody in, and says who that is.
+    fn check(&self) -> std::result::Result<(), String> {
+        for (index, token) in self.tokens.iter().enumerate() {
+            let name = &token.name;
+            if self.tokens[..index].iter().any(|before| before.name == *name) {
+                return Err(format!("there are two tokens `{name}`, expected one for each holder"));
+            }
+            let is_digit = |c: char| c.is_ascii_digit() || ('a'..='f').contains(&c);
+            if token.sha256.len() != 2 * Sha256::output_size() || !token.sha256.chars().all(is_digit) {
+                return Err(format!(
+                    "`sha256` of the token `{name}` is none, expected 64 hexadecimal digits"
+                ));
+            }
+        }
+        Ok(())
     }
 
     /// Writes the file whole, readable by its owner only.

@@ -138,6 +138,31 @@ fn a_file_of_tokens_that_cannot_be_read_lets_in_whom_it_let_in_before_and_is_sai
 }
 
 #[test]
+fn what_is_wrong_with_a_file_of_tokens_is_said_where_it_stands() {
+    let site = TestSite::example("paper");
+    token(&site, "anna", &["read"]);
+    let good = site.read("tokens.toml");
+    let twice = good.repeat(2);
+    let short = good.replace("sha256 = \"", "sha256 = \"0");
+    let wrong: [(&str, &[&str]); 4] = [
+        (
+            &good.replace("sha256", "sha257"),
+            &["tokens.toml:5:1", "unknown field `sha257`", "expected one of `name`"],
+        ),
+        (
+            &good.replace("\"read\"", "\"reed\""),
+            &["tokens.toml:4:", "unknown variant `reed`", "expected one of `read`"],
+        ),
+        (&twice, &["there are two tokens `anna`, expected one for each holder"]),
+        (&short, &["`sha256` of the token `anna` is none, expected 64 hexadecimal digits"]),
+    ];
+    for (text, words) in wrong {
+        site.write("tokens.toml", text);
+        site.adit("token", &["list"]).expect_status(2).complains(words);
+    }
+}
+
+#[test]
 fn a_file_without_tokens_is_no_open_door_at_the_next_start() {
     let site = TestSite::example("paper").built();
     token(&site, "anna", &["read"]);

@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used)] // in a test a failed unwrap is a failed test
 
 mod drives;
+mod fuzz;
 mod judge;
 mod malformed;
 mod messages;

@@ -14,7 +14,7 @@ use serde_json::{Value, json};
 use crate::judge::{Chance, Judge, Schemas, schemas};
 
 /// A route of chance from a point: bends, changes of shape, turns, doorways, at times two at one point.
-fn route(chance: &mut Chance, start: [f64; 2]) -> Route {
+pub fn route(chance: &mut Chance, start: [f64; 2]) -> Route {
     let mut points = vec![start];
     for _ in 0..chance.below(9) {
         let last = points[points.len() - 1];

@@ -3,6 +3,7 @@
 import importlib
 import itertools
 import json
+import random
 import sys
 import threading
 
@@ -10,6 +11,7 @@ import rclpy
 from rclpy.action import ActionClient
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.qos import DurabilityPolicy, QoSProfile
+from rclpy.serialization import serialize_message
 
 LOCK = threading.Lock()
 
@@ -134,6 +136,31 @@ class Client:
         message = kind(told["type"])
         make = lambda: self.node.create_publisher(message, told["name"], self.qos(told))
         self.once(("to", told["name"]), make).publish(fill(message(), told["message"]))
+
+    def noise(self, told):
+        """Publishes bytes that are nearly such a message, so many times."""
+        message, chance = kind(told["type"]), random.Random(told["seed"])
+        make = lambda: self.node.create_publisher(message, told["name"], self.qos(told))
+        publisher = self.once(("to", told["name"]), make)
+        good = serialize_message(fill(message(), told["message"]))
+        for _ in range(told["count"]):
+            bad = bytearray(good)
+            for _ in range(chance.randint(1, 6)):
+                # the first four bytes say how the others are written
+                at = chance.randrange(4, len(bad)) if len(bad) > 4 else 0
+                change = chance.randrange(6)
+                if change == 0 and len(bad) > 12:
+                    del bad[at:]
+                elif change == 1:
+                    bad[at:at] = bytes(chance.randrange(256) for _ in range(chance.randrange(40)))
+                elif change == 2:
+                    bad[at : at + 4] = chance.choice([b"\xff\xff\xff\xff", b"\0\0\0\0", b"\xff\xff\xff\x7f", b"\0\0\x80\x7f", b"\0\0\0\x10"])
+                elif change == 3:
+                    bad[at : at + 8] = chance.choice([b"\0\0\0\0\0\0\xf8\x7f", b"\0\0\0\0\0\0\xf0\xff", b"\xff" * 6 + b"\xef\x7f"])
+                else:
+                    bad[at % len(bad)] ^= 1 << chance.randrange(8)
+            publisher.publish(bytes(bad))
+        self.last({"id": told["id"], "published": told["count"]})
 
     def keep(self, told):
         """Publishes ten times a second from now on, as a robot does that says where it is."""

@@ -168,6 +168,20 @@ impl Client {
         self.tell(json!({"do": what, "name": name, "type": kind, "message": message, "latched": true}));
     }
 
+    /// Publishes bytes that are nearly such a message, so many times.
+    pub fn noise(
+        &mut self,
+        (name, kind): (&str, &str),
+        message: &Value,
+        (seed, count): (u64, u32),
+        latched: bool,
+    ) {
+        let id = self
+            .tell(json!({"do": "noise", "name": name, "type": kind, "message": message, "seed": seed,
+            "count": count, "latched": latched}));
+        self.until("all is published", |said| said["id"] == id && said["published"] == count);
+    }
+
     pub fn cancel(&mut self, goal: u64) -> Value {
         let id = self.tell(json!({"do": "cancel", "goal": goal}));
         self.until("cancelled", |said| said["id"] == id)

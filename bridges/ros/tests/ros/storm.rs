@@ -45,7 +45,7 @@ fn line(doorway: &Value) -> [[f64; 2]; 2] {
 }
 
 /// Resident kilobytes, and open files, of a program.
-fn held(pid: u32) -> (u64, usize) {
+pub fn held(pid: u32) -> (u64, usize) {
     let status = fs::read_to_string(format!("/proc/{pid}/status")).unwrap();
     let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:")).unwrap();
     let kilobytes = line.trim().trim_end_matches(" kB").parse().unwrap();
