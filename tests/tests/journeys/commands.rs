@@ -155,11 +155,12 @@ const PAGES: [Page; 25] = [
 ];
 
 /// What is not run, and why.
-const NOT_RUN: [(&str, &str); 6] = [
+const NOT_RUN: [(&str, &str); 7] = [
     ("cargo ", "builds the program or its documents anew: minutes; the tests run what it builds"),
     ("podman ", "needs an engine for containers, and the image; packages.rs makes what it is built of"),
     ("tests/run", "runs all tests, this one too"),
     ("tests/peers/", "needs other people's programs; tests/tests/peers.rs runs them where these are"),
+    ("tests/fuzz_coverage.sh", "compiles all of it anew, with counters"),
     ("tests/pictures.sh", "draws pictures to be looked at"),
     ("DELETE FROM", "a fragment"),
 ];
