@@ -90,7 +90,15 @@ impl Run<'_> {
         if is_as_expected(expected.as_ref(), found.as_ref(), self.test.tolerance) {
             return;
         }
-        let word = |value: &Option<Value>| value.as_ref().map_or("unknown".to_owned(), Value::to_string);
+        // "1.5" and 1.5 are not the same
+        let is_told_apart = found
+            .as_ref()
+            .zip(expected.as_ref())
+            .is_some_and(|(found, expected)| found.to_string() == expected.to_string());
+        let word = |value: &Option<Value>| match value {
+            Some(Value::Text(text)) if is_told_apart => format!("\"{text}\""),
+            value => value.as_ref().map_or("unknown".to_owned(), Value::to_string),
+        };
         let message = format!(
             "test \"{}\": {} {} {} is {} and should be {}{}",
             self.test.name.value,

@@ -112,6 +112,20 @@ conclude.PLANTS.fern.litres_each = 0.0333
 }
 
 #[test]
+fn a_text_that_looks_like_a_number_is_told_from_it() {
+    let found = outcomes(
+        r#"
+[[test]]
+name = "thirds"
+given.PLANTS = [{ pot = "fern", days_dry = 3, litres = 4.5 }]
+conclude.PLANTS.fern.litres_each = "1.5"
+"#,
+    );
+    let message = &found[0].failures[0].diagnostic.message;
+    assert!(message.ends_with("litres_each is 1.5 and should be \"1.5\""), "{message}");
+}
+
+#[test]
 fn what_follows_from_an_edit_is_tested_step_by_step() {
     let found = outcomes(
         r#"
