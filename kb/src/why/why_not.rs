@@ -114,11 +114,14 @@ impl State {
         let touched = best.clone().filter(|best| !is_led && passing.holds_way(graph, &best.tight));
         let way = led.or(touched.map(tightly));
         let found = found.map(|way| if is_driven(&way) { way } else { tightly(way) });
-        let way = way.or(found);
+        let closed = words::closed(&self, &meant, &robot);
+        let way = way.or(found).filter(|_| closed.is_none());
         let costs = Choice::costs(best.as_ref(), way.as_ref());
         let driven = best.as_ref().zip(way.as_ref()).filter(|(best, way)| best.is_chosen_close_to_walls(way));
         let driven = driven.map(|(best, way)| [best, way].map(|way| way.driven.cost));
-        let reason = words::reason(&self, &meant, &routes, (start, goal), (costs.0, costs.1, is_led));
+        let reason = closed.unwrap_or_else(|| {
+            words::reason(&self, &meant, &routes, (start, goal), (costs.0, costs.1, is_led))
+        });
         let answer = |way: &Choice| -> Result<Answer> {
             let mut answer = Answer::blank(&robot, start, &[goal.to_owned()], self.generation);
             self.basis().along(&way.driven, routes.goal.at.is_some(), &mut answer)?;

@@ -99,6 +99,30 @@ fn the_number_that_why_not_names_turns_the_way_and_where_it_names_none_firm_has_
     assert!(named >= 4, "{named} named, {none} none, {cut} cut");
 }
 
+/// A wall with two doorways; by the second one it is farther.
+const TWO_DOORWAYS: &str = "width = 12.0\ndepth = 8.0\n\
+    [[obstacle]]\nrect = [5.9, 0.0, 6.1, 2.0]\n[[obstacle]]\nrect = [5.9, 3.0, 6.1, 6.0]\n\
+    [[obstacle]]\nrect = [5.9, 7.0, 6.1, 8.0]\n\
+    [[place]]\nname = \"west\"\nat = [2.0, 2.5]\n[[place]]\nname = \"east\"\nat = [10.0, 2.5]\n";
+
+#[test]
+fn a_way_that_only_comes_up_to_a_closed_doorway_is_none_through_it() {
+    let site = TestSite::example("starter").with("map.toml", TWO_DOORWAYS).with(
+        "site.toml",
+        "name = \"two\"\nmap = \"map.toml\"\nrobots = \"robots.toml\"\nrooms = \"by-state\"\n",
+    );
+    let site = site.built();
+    let asked = ["west", "east", "--through", "doorway 2"];
+    let open = site.adit("why-not", &asked).expecting(0).stdout;
+    assert!(open.contains("through doorway 2 it costs"), "{open}");
+    for closing in [&["doorway 2"][..], &["doorway 2", "--only", "robot"]] {
+        site.adit("close", closing).expect_status(0);
+        let closed = site.adit("why-not", &asked).expecting(0).stdout;
+        assert!(closed.contains("closed") && !closed.contains("costs"), "{closing:?}: {closed}");
+        site.adit("open", &["doorway 2"]).expect_status(0);
+    }
+}
+
 #[test]
 fn on_the_clinic_side_walking_that_gets_harder_turns_the_way_through_the_corridor_in_the_east() {
     // once: "No single number of the tables makes it the best way", where *how firm* named this one

@@ -6,6 +6,7 @@ use adit_engine::{Rejected, Rejection, Value};
 use adit_planners::routes::{Entry, Goal, Start, Walking};
 
 use super::{WhyNot, WouldWin};
+use crate::knowledge::told::Line;
 use crate::state::State;
 use crate::why::contrast::through::Via;
 use crate::why::contrast::{Path, Routes, actions, instead, is_best};
@@ -48,6 +49,20 @@ pub(super) fn reason(
     }
 }
 
+/// That the doorway is closed to a robot, both ways. A way that only comes up to it is none through it.
+pub(super) fn closed(fork: &State, meant: &Meant, robot: &str) -> Option<String> {
+    let building = &fork.graph().building;
+    let doorway = building.doorways.iter().find(|doorway| Some(doorway.doorway) == meant.doorway)?;
+    if doorway.closed == Some(true) {
+        return Some(building.why_closed(doorway.doorway));
+    }
+    let is_here = |line: &&Line| {
+        line.whom.holds_for(robot)
+            && building.doorway_at(line.segment).is_some_and(|at| at.doorway == doorway.doorway)
+    };
+    building.lines.iter().find(is_here).map(|line| building.why_told_closed(line))
+}
+
 /// What keeps all ways out, where that is known.
 fn shut(fork: &State, meant: &Meant, routes: &Routes) -> Option<String> {
     let (graph, name) = (fork.graph(), &meant.name);
@@ -64,12 +79,6 @@ fn shut(fork: &State, meant: &Meant, routes: &Routes) -> Option<String> {
         if door.passable.value.is_none() || door.hardness.value.is_none() {
             return Some(format!("{name} has no hardness: no rule gives it one, or rules disagree"));
         }
-    }
-    let doorway = meant
-        .doorway
-        .and_then(|number| graph.building.doorways.iter().find(|doorway| doorway.doorway == number));
-    if let Some(doorway) = doorway.filter(|doorway| doorway.closed == Some(true)) {
-        return Some(graph.building.why_closed(doorway.doorway));
     }
     let (entries, at): (Vec<Entry>, _) = match &meant.via {
         Via::Rooms(rooms) => (rooms.iter().copied().map(Entry::from).collect(), None),
