@@ -111,6 +111,8 @@ fn negate_may_be_a_number_or_a_truth_value() {
     };
     assert!(is_about(free("0"), 5.0) && is_about(free("false"), 5.0));
     assert!(is_about(free("1"), 6.0) && is_about(free("true"), 6.0));
+    let wrong = Folder::new(&with("negate", "2"), PGM).read(&MapSettings::default()).unwrap_err().to_string();
+    assert!(wrong.contains("`negate` must be 0 or 1, found 2"), "{wrong}");
 }
 
 #[test]

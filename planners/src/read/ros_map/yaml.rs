@@ -105,25 +105,18 @@ struct Written {
     image: Spanned<String>,
     resolution: Spanned<f64>,
     origin: Spanned<Vec<f64>>,
-    #[serde(default)]
-    negate: Negate,
+    negate: Option<Spanned<Negate>>,
     occupied_thresh: Spanned<f64>,
     free_thresh: Spanned<f64>,
     mode: Option<Spanned<String>>,
 }
 
 /// ROS writes 0 or 1, people true or false.
-#[derive(Deserialize)]
+#[derive(Clone, Copy, Deserialize)]
 #[serde(untagged, expecting = "`negate` must be 0 or 1")]
 enum Negate {
     Number(i64),
     Truth(bool),
-}
-
-impl Default for Negate {
-    fn default() -> Self {
-        Self::Truth(false)
-    }
 }
 
 pub(crate) fn parse(source: &Text, text: &str) -> Result<MapFile, MapErrors> {
@@ -140,15 +133,23 @@ pub(crate) fn parse(source: &Text, text: &str) -> Result<MapFile, MapErrors> {
     check_thresholds(source, &occupied, &free, &mut problems);
     let mode = written.mode.as_ref().map(Located::from);
     let mode = mode.map_or(Some(Mode::Trinary), |mode| parse_mode(source, &mode, &mut problems));
+    let negate = written.negate.as_ref().map(Located::from);
+    let is_negated = negate.is_some_and(|negate| match negate.value {
+        Negate::Truth(truth) => truth,
+        Negate::Number(number) => {
+            if ![0, 1].contains(&number) {
+                let message = format!("`negate` must be 0 or 1, found {number}");
+                problems.push(source.problem(Code::WrongType, &negate.span, message));
+            }
+            number == 1
+        }
+    });
     match (resolution, origin, mode) {
         (Some(resolution), Some(origin), Some(mode)) if problems.is_empty() => Ok(MapFile {
             image: image.value,
             resolution,
             origin,
-            negate: match written.negate {
-                Negate::Number(number) => number != 0,
-                Negate::Truth(truth) => truth,
-            },
+            negate: is_negated,
             occupied_thresh: occupied.value,
             free_thresh: free.value,
             mode,
