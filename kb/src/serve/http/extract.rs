@@ -126,8 +126,51 @@ impl<T: DeserializeOwned, S: Send + Sync> FromRequest<S> for Body<T> {
     }
 }
 
+/// What axum and serde say is wrong with a request, without the names that values have in Rust.
+fn said(text: &str) -> String {
+    const WHOLE: &str = "a whole number from 0 on";
+    const NAMES: [(&str, &str); 9] = [
+        ("u8", WHOLE),
+        ("u16", WHOLE),
+        ("u32", WHOLE),
+        ("u64", WHOLE),
+        ("usize", WHOLE),
+        ("i64", "a whole number"),
+        ("f64", "a number"),
+        ("a sequence", "an array"),
+        ("a map", "an object"),
+    ];
+    const PARTS: [(&str, &str); 4] = [
+        ("Failed to deserialize the JSON body into the target type: ", "the body is not as expected: "),
+        ("Failed to parse the request body as JSON: ", "the body is no JSON: "),
+        ("Failed to deserialize query string: ", "the question is not as expected: "),
+        ("Invalid URL: ", "the address is not as expected: "),
+    ];
+    let (part, rest) = PARTS
+        .iter()
+        .find_map(|(theirs, ours)| Some((*ours, text.strip_prefix(theirs)?)))
+        .unwrap_or(("", text));
+    if let Some((value, name)) =
+        rest.strip_prefix("Cannot parse `").and_then(|rest| rest.trim_end_matches('`').split_once("` to a `"))
+        && let Some((_, words)) = NAMES.iter().find(|(theirs, _)| *theirs == name)
+    {
+        return format!("{part}found `{value}`, expected {words}");
+    }
+    let Some((found, expected)) = rest.split_once("expected ") else { return format!("{part}{rest}") };
+    if let Some(of) = expected.strip_prefix("struct ") {
+        let place =
+            of.split_once(" at line ").map_or_else(String::new, |(_, place)| format!(" at line {place}"));
+        return format!("{part}{found}expected an object{place}");
+    }
+    let name = NAMES.iter().find_map(|(theirs, words)| {
+        let rest = expected.strip_prefix(theirs)?;
+        (rest.is_empty() || rest.starts_with(' ')).then(|| format!("{words}{rest}"))
+    });
+    format!("{part}{found}expected {}", name.as_deref().unwrap_or(expected))
+}
+
 fn body_fault(rejection: &JsonRejection) -> Fault {
-    let fault = |code| Fault::new(code, rejection.body_text());
+    let fault = |code| Fault::new(code, said(&rejection.body_text()));
     match rejection {
         JsonRejection::JsonDataError(_) => fault(Code::ServiceBody),
         JsonRejection::MissingJsonContentType(_) => {
@@ -147,7 +190,7 @@ impl<T: DeserializeOwned, S: Send + Sync> FromRequestParts<S> for Asked<T> {
     async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Self, Fault> {
         match Query::<T>::from_request_parts(parts, state).await {
             Ok(Query(value)) => Ok(Self(value)),
-            Err(rejection) => Err(Fault::new(Code::ServiceQuestion, rejection.body_text())),
+            Err(rejection) => Err(Fault::new(Code::ServiceQuestion, said(&rejection.body_text()))),
         }
     }
 }
@@ -161,7 +204,7 @@ impl<T: DeserializeOwned + Send, S: Send + Sync> FromRequestParts<S> for Named<T
     async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Self, Fault> {
         match axum::extract::Path::<T>::from_request_parts(parts, state).await {
             Ok(axum::extract::Path(value)) => Ok(Self(value)),
-            Err(rejection) => Err(Fault::new(Code::ServicePath, rejection.body_text())),
+            Err(rejection) => Err(Fault::new(Code::ServicePath, said(&rejection.body_text()))),
         }
     }
 }
@@ -177,4 +220,42 @@ impl<S: Send + Sync> FromRequestParts<S> for Caller {
 
 pub fn too_large() -> Fault {
     Fault::new(Code::ServiceTooLarge, format!("a body may have {BODY} bytes"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::said;
+
+    #[test]
+    fn what_is_wrong_with_a_request_is_said_without_names_of_rust() {
+        let body = "Failed to deserialize the JSON body into the target type: ";
+        for (theirs, ours) in [
+            (
+                format!(
+                    "{body}invalid length 0, expected struct BlockedBody with 8 elements at line 1 column 2"
+                ),
+                "the body is not as expected: invalid length 0, expected an object at line 1 column 2",
+            ),
+            (
+                format!(
+                    "{body}for_seconds: invalid type: floating point `60.0`, expected u32 at line 1 column 9"
+                ),
+                "the body is not as expected: for_seconds: invalid type: floating point `60.0`, expected a whole number from 0 on at line 1 column 9",
+            ),
+            (
+                format!("{body}edit: unknown variant `cloze`, expected one of `close`, `open`"),
+                "the body is not as expected: edit: unknown variant `cloze`, expected one of `close`, `open`",
+            ),
+            (
+                "Invalid URL: Cannot parse `abc` to a `i64`".to_owned(),
+                "the address is not as expected: found `abc`, expected a whole number",
+            ),
+            (
+                "Failed to parse the request body as JSON: expected `:` at line 1 column 5".to_owned(),
+                "the body is no JSON: expected `:` at line 1 column 5",
+            ),
+        ] {
+            assert_eq!(said(&theirs), ours);
+        }
+    }
 }
