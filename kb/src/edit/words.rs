@@ -2,6 +2,7 @@
 
 use adit_db::Cell;
 use adit_db::history::Edit as Entry;
+use jiff::Span;
 use serde_json::{Map, Value};
 
 use super::file::{self, Write};
@@ -31,7 +32,7 @@ impl Edit {
                 format!("fact {key}: {} {} {} = {}", fact.class, fact.object, fact.property, fact.value)
             }
             Self::Close(close) => {
-                let until = close.until.as_ref().map_or_else(String::new, |until| format!(" until {until}"));
+                let until = close.until.as_deref().map_or_else(String::new, ends);
                 let whom = match (close.only.as_slice(), close.except.as_slice()) {
                     ([], []) => Whom::All,
                     (only, []) => Whom::Only(only.to_vec()),
@@ -42,7 +43,7 @@ impl Edit {
             }
             Self::Open(what) => format!("{what} is open"),
             Self::Lay(lay) => {
-                let until = lay.until.as_ref().map_or_else(String::new, |until| format!(" until {until}"));
+                let until = lay.until.as_deref().map_or_else(String::new, ends);
                 format!("the {} `{key}` lies over the map{until}", lay.what.name())
             }
             Self::Lift(name) => format!("`{name}` no longer lies over the map"),
@@ -114,6 +115,12 @@ pub(crate) fn entry(of: &Entry) -> String {
 }
 
 /// Whether a row says that a tuning is on.
+/// ` until 18:00`, ` for 2h`.
+fn ends(until: &str) -> String {
+    let is_span = until.parse::<Span>().is_ok();
+    format!(" {} {until}", if is_span { "for" } else { "until" })
+}
+
 fn is_switch(row: &Cell) -> bool {
     object(row).is_some_and(|row| row.len() == 1 && row.contains_key("tuning"))
 }

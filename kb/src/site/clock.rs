@@ -76,7 +76,10 @@ impl Clock {
             zoned(date.at(0, 0, 0, 0))
         } else if let Ok(local) = text.parse::<DateTime>() {
             zoned(local)
-        } else if let Ok(time) = text.parse::<Time>() {
+        } else if let Ok(time) = text.parse::<Time>()
+            // `2026` may be a year, `30` minutes
+            && text.contains(':')
+        {
             self.next(time).and_then(zoned)
         } else if let Ok(span) = text.parse::<Span>() {
             self.local().checked_add(span).ok().map(|zoned| zoned.timestamp())
@@ -129,6 +132,13 @@ mod tests {
         assert_eq!(utc("12:00"), "2026-11-22T11:00:00Z");
         assert_eq!(utc("2h"), "2026-11-21T13:30:00Z");
         assert_eq!(utc("3 days"), "2026-11-24T11:30:00Z");
+    }
+
+    #[test]
+    fn a_number_alone_is_no_time_of_day() {
+        for text in ["2026", "1800", "30", "7"] {
+            assert!(clock().parse(text).is_err(), "{text}");
+        }
     }
 
     #[test]
