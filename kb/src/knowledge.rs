@@ -471,6 +471,17 @@ impl KnowledgeBase {
         files
     }
 
+    /// Refuses to write what is made of the site into one of the files that it is made of.
+    pub fn spare_own(&self, to: &Path) -> Result<()> {
+        let Ok(place) = to.canonicalize() else { return Ok(()) };
+        let is_it = |own: &PathBuf| own.canonicalize().is_ok_and(|own| own == place);
+        if !self.files().iter().chain([&self.database]).any(is_it) {
+            return Ok(());
+        }
+        let message = format!("{} is a file of which the site is made: it would be lost", to.display());
+        Err(Error::said(Code::FileOwn, message, Some("name another file".to_owned())))
+    }
+
     pub(crate) fn inputs(&self, progress: &dyn Progress) -> Result<Arc<Inputs>> {
         progress.stage("map");
         self.needs_course()?;

@@ -341,6 +341,16 @@ impl Site {
         Err(Error::said(error::Code::SiteNoMap, message, Some(help)))
     }
 
+    /// Refuses to move an end of a route over a map that is not cut into rooms.
+    pub fn moves_ends(&self, within: Option<f64>) -> Result<()> {
+        if within.is_none() || self.has_rooms() {
+            return Ok(());
+        }
+        let message =
+            format!("ends of routes are not moved on the map of {}: it is not cut into rooms", self.name);
+        Err(Error::said(error::Code::CourseUnfit, message, Some("leave `within` out".to_owned())))
+    }
+
     /// The files that it is made of, besides its rules: `site.toml` first.
     pub fn files(&self) -> Vec<PathBuf> {
         let mut files = vec![self.folder.join("site.toml")];

@@ -4,7 +4,7 @@ use adit_db::{Store, Tx};
 use adit_planners::geometry::{Convex, Point, Rect, Segment};
 use adit_planners::world::{Occupancy, Place, Shape, World};
 
-use crate::answer::{Answer, Status};
+use crate::answer::{Answer, Status, pick_robot};
 use crate::draw::{ClosedTo, Closing, Door, PrimeArea, Room, Route, Scene, Step, StepKind};
 use crate::error::{Code, Error, Result};
 use crate::graph::{Building, SiteGraph, crossing_of, outline_of, rect_of};
@@ -15,6 +15,9 @@ impl KnowledgeBase {
     /// What is to be seen of the site, with a route from start to goal where one is asked for.
     pub fn scene(&self, route: Option<(&str, &str)>, robot: Option<&str>) -> Result<Scene> {
         let world = Store::open_read_only(self.database())?.snapshot(|tx| self.world(tx))?;
+        if robot.is_some() {
+            Store::open_read_only(self.database())?.snapshot(|tx| pick_robot(tx, robot))?;
+        }
         let answer = route.map(|(start, goal)| self.route(start, goal, robot)).transpose()?;
         let mut scene =
             Store::open_read_only(self.database())?.snapshot(|tx| scene(tx, &self.site().name, &world))?;

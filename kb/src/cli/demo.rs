@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::build::show;
-use super::output::{json, line, maybe, program, quoted, table};
+use super::output::{json, line, maybe, program, quoted, remark, table};
 use super::picture::{WIDTH, save};
 use super::route;
 use crate::answer::scene::main_state;
@@ -122,8 +122,21 @@ fn renew(folder: &Path, name: &str, made: &mut Whole) -> Result<()> {
     }
     let database = folder.join("site.db");
     if database.exists() {
-        std::fs::remove_file(&database).map_err(|error| Error::io("replace", &database, &error))?;
+        make_room(&database)?;
     }
+    Ok(())
+}
+
+/// Takes the database of an earlier demo away; one in which somebody edited something is kept under another name.
+fn make_room(database: &Path) -> Result<()> {
+    let edits = Store::open_read_only(database).and_then(|mut store| store.snapshot(|tx| tx.history(1)));
+    if edits.is_ok_and(|edits| edits.is_empty()) {
+        return std::fs::remove_file(database).map_err(|error| Error::io("replace", database, &error));
+    }
+    let kept = (1..).map(|number| database.with_file_name(format!("site-{number}.db")));
+    let Some(kept) = kept.into_iter().find(|kept| !kept.exists()) else { return Ok(()) };
+    std::fs::rename(database, &kept).map_err(|error| Error::io("move away", database, &error))?;
+    remark(&format!("what you edited in the demo of before is kept in {}", kept.display()));
     Ok(())
 }
 

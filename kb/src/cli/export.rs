@@ -48,6 +48,7 @@ fn lanes(args: &ExportArgs) -> Result<()> {
         let help = "say a layer, as `adit export SITE rooms --to rooms.geojson`".to_owned();
         return Err(Error::said(Code::CourseUnfit, message, Some(help)));
     };
+    live.site().spare_own(&args.to)?;
     let routes = lanes.routes(&live.asked())?;
     let robot = match (format, &args.robot) {
         (Format::Lif, None) => None,

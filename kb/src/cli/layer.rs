@@ -22,6 +22,7 @@ pub fn run(site: &SiteArgs, name: &str, to: &Path) -> Result<()> {
         return Err(Error::said(Code::LayerFile, message, None));
     }
     let knowledge = open(site)?;
+    knowledge.spare_own(to)?;
     let (layer, rows) = Store::open_read_only(knowledge.database())?.snapshot(|tx| -> Result<_> {
         let layers = tx.layers()?;
         let is_meant = |layer: &&Layer| layer.name == name || layer.table == name;

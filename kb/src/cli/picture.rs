@@ -47,6 +47,7 @@ pub fn run(args: &DrawArgs) -> Result<()> {
     check(&args.output)?;
     let mut layers = layers(args)?;
     let knowledge = open(&args.site)?;
+    knowledge.spare_own(&args.output)?;
     let route = args.route.as_ref().and_then(|ends| Some((ends.first()?.as_str(), ends.get(1)?.as_str())));
     if knowledge.site().layout.is_some() {
         return course(args, &knowledge, route);

@@ -122,6 +122,8 @@ codes! {
     /// A property of a class is missing or holds something else than its column should.
     FactsProperty = "facts/property", BAD_REQUEST;
 
+    /// What is to be written would take the place of a file of which the site is made.
+    FileOwn = "file/own", BAD_REQUEST;
     /// A file cannot be read or written.
     FileUnreadable = "file/unreadable", INTERNAL_SERVER_ERROR;
 

@@ -9,7 +9,7 @@ use adit_planners::planner::Planner;
 use adit_planners::read::MapReport;
 use adit_planners::world::World;
 
-use crate::error::Result;
+use crate::error::{Finding, Problem, Result};
 use crate::graph::Rules as RuleNames;
 use crate::site::Site;
 use crate::site::lint;
@@ -52,7 +52,8 @@ impl Inputs {
         let began = Instant::now();
         let (world, map_report, of_map) = site.measured_world()?;
         know(&world);
-        let of_map = of_map.into_iter().map(|note| note.to_string()).collect();
+        let placed = |note| Problem::of(&Finding::from(note)).to_string();
+        let of_map = of_map.into_iter().map(placed).collect();
         let stage = Stage { name: "map".to_owned(), took: began.elapsed(), kept: false };
         let read = Self {
             rules: Arc::default(),

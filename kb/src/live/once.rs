@@ -176,9 +176,7 @@ impl KnowledgeBase {
         if !self.site().has_rooms() && self.site().layout.is_none() {
             self.site().needs_rooms()?;
         }
-        if self.course().is_some() && self.within.is_some() {
-            self.site().needs_rooms()?;
-        }
+        self.site().moves_ends(self.within)?;
         if self.asks_about_another_moment() {
             return self.rehearsed(|_, _| Ok(()), |tx| self.answer(tx, (start, goals), robot, [None; 2]));
         }

@@ -393,7 +393,7 @@ impl Report {
         notes.extend(misspelt.iter().map(ToString::to_string));
         if graph.rooms.is_empty() && state.site.site().has_rooms() {
             notes.push("there is no room: no state of a robot fits anywhere on this map".to_owned());
-        } else if weighed.is_none() {
+        } else {
             notes.extend(unfit_places(state));
         }
         Self {

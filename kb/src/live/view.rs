@@ -3,6 +3,7 @@
 use std::sync::{Arc, Weak};
 
 use adit_db::place::Place;
+use adit_planners::geometry::{Point, Rect};
 use adit_planners::world::World;
 
 use super::memory::Memory;
@@ -101,6 +102,7 @@ impl View {
     pub fn route(&self, start: &str, goals: &[String], robot: Option<&str>) -> Result<Answer> {
         let robot = answer::pick(&self.robots, robot)?;
         if let Some(courses) = &self.courses {
+            self.site.site().moves_ends(self.within)?;
             return Ok(Answer::by(courses, (start, goals), &robot, self.generation));
         }
         let blank = Answer::blank(&robot, start, goals, self.generation);
@@ -138,6 +140,13 @@ impl View {
     pub(crate) fn places(&self) -> impl Iterator<Item = Place> {
         let of_course = self.courses.iter().flat_map(|courses| courses.ends());
         self.graph.places.clone().into_iter().chain(of_course)
+    }
+
+    /// What holds all of the map, metres; of a map that is not cut into rooms all that routes lead between.
+    pub(crate) fn bounds(&self) -> Rect {
+        let Some(courses) = &self.courses else { return self.world.bounds };
+        let ends: Vec<Point> = courses.ends().iter().map(|end| Point::new(end.x, end.y)).collect();
+        if ends.is_empty() { self.world.bounds } else { Rect::around(ends) }
     }
 
     /// A map that is not cut into rooms as an SVG text, with a route where one is asked for.

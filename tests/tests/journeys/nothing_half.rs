@@ -106,7 +106,20 @@ fn a_demo_takes_no_site_of_yours_away() {
     run(&folder, "adit demo --out .").expecting(2).complains(&["clinic is a site, and not the example"]);
     assert!(before == listed(&folder.path().join("clinic")));
     run(&folder, "adit demo --out new").expect_status(0);
-    run(&folder, "adit demo --out new").expect_status(0);
+    let again = run(&folder, "adit demo --out new").expecting(0);
+    assert!(!again.stderr.contains("is kept in"), "{}", again.stderr);
+}
+
+#[test]
+fn a_demo_keeps_what_was_edited_in_the_one_of_before() {
+    let folder = TestSite::empty();
+    run(&folder, "adit demo").expect_status(0);
+    let site = "adit-demo/paper";
+    run(&folder, &format!("adit tune {site} robots SQUAT hardness 3 --why mine")).expect_status(0);
+    let again = run(&folder, "adit demo").expecting(0);
+    assert!(again.stderr.contains("is kept in adit-demo/paper/site-1.db"), "{}", again.stderr);
+    let kept = run(&folder, &format!("adit history {site} --db {site}/site-1.db")).expecting(0);
+    assert!(kept.stdout.contains("4 → 3") && kept.stdout.contains("mine"), "{}", kept.stdout);
 }
 
 #[test]

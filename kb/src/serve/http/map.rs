@@ -147,7 +147,7 @@ impl MapAnswer {
     pub(super) fn of(view: &View, with_changes: bool) -> Self {
         let (graph, world) = (view.graph(), view.world());
         let (layers, rooms) = rooms(graph);
-        let b = world.bounds;
+        let b = view.bounds();
         Self {
             layout: view.layout().to_owned(),
             generation: view.generation(),

@@ -61,7 +61,7 @@ pub async fn site(shared: Site, caller: Caller) -> Answered<Json<SiteAnswer>> {
     let seen = shared.view.load();
     let view = &seen.view;
     let (graph, site) = (view.graph(), view.site().site());
-    let bounds = view.world().bounds;
+    let bounds = view.bounds();
     Ok(Json(SiteAnswer {
         name: site.name.clone(),
         generation: view.generation(),

@@ -1,8 +1,9 @@
 //! What is written for others is read again with the same ids, names and weights, and written again to the byte.
 
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
+use adit_tests::service::Service;
 use adit_tests::{TestSite, repository};
 
 use super::{FILES, file, site_of};
@@ -26,15 +27,21 @@ fn costs(site: &TestSite, robot: &str) -> BTreeMap<String, String> {
 }
 
 fn export(site: &TestSite, name: &str, robot: Option<&str>) -> String {
-    let to = site.path().join(name);
+    let to = exported(site, name);
+    std::fs::create_dir_all(to.parent().unwrap()).unwrap();
     let mut args = vec!["--to", to.to_str().unwrap()];
     args.extend(robot.into_iter().flat_map(|robot| ["--robot", robot]));
     site.adit("export", &args).expect_status(0);
     std::fs::read_to_string(to).unwrap()
 }
 
+/// Beside the site's own files: its map may be called so.
+fn exported(site: &TestSite, name: &str) -> PathBuf {
+    site.path().join("exported").join(name)
+}
+
 fn again(site: &TestSite, name: &str) -> TestSite {
-    site_of(&site.path().join(name))
+    site_of(&exported(site, name))
 }
 
 #[test]
@@ -96,11 +103,44 @@ fn lif_is_written_for_all_vehicle_types_at_once() {
         serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
     };
     export(&site, "site.lif.json", None);
-    assert_eq!(
-        read(&site.path().join("site.lif.json")),
-        read(&map),
-        "nothing of a LIF file is lost or added"
-    );
+    assert_eq!(read(&exported(&site, "site.lif.json")), read(&map), "nothing of a LIF file is lost or added");
+}
+
+#[test]
+fn the_service_says_how_far_a_lane_graph_reaches_and_moves_no_end_of_a_route() {
+    let Some(map) = file("open-rmf/office.building.yaml") else { return };
+    let site = site_of(&map);
+    let service = Service::start(&site);
+    let extent = site.sqlite3("SELECT min(x), min(y), max(x), max(y) FROM nodes").remove(0);
+    let extent: Vec<f64> = extent.split('|').map(|number| number.parse().unwrap()).collect();
+    for asked in ["/api/site", "/api/map"] {
+        let bounds = service.ask("GET", asked, None).1["bounds"].clone();
+        let bounds: Vec<f64> =
+            bounds.as_array().unwrap().iter().map(|number| number.as_f64().unwrap()).collect();
+        let is_within = |at: usize, is_least: bool| {
+            if is_least { bounds[at] >= extent[at] } else { bounds[at] <= extent[at] }
+        };
+        assert!(
+            is_within(0, true) && is_within(1, true) && is_within(2, false) && is_within(3, false),
+            "{bounds:?}, {extent:?}"
+        );
+        assert!(bounds[0] > 2.0 && bounds[1] < -1.0 && bounds[2] > bounds[0] + 5.0, "{bounds:?}");
+    }
+    let (status, answer) = service.ask("GET", "/api/route?start=7,-5&goal=1000,-5&within=0.3", None);
+    assert_eq!((status, &answer["error"]["code"]), (400, &serde_json::json!("course/unfit")), "{answer}");
+}
+
+#[test]
+fn what_is_written_takes_the_place_of_no_file_of_the_site() {
+    let Some(map) = file("open-rmf/office.building.yaml") else { return };
+    let site = site_of(&map);
+    let (path, before) = (site.path().join("office.building.yaml"), site.read("office.building.yaml"));
+    let path = path.to_str().unwrap();
+    site.adit("export", &["--to", path]).expecting(2).complains(&[
+        "office.building.yaml is a file of which the site is made: it would be lost",
+        "name another file",
+    ]);
+    assert_eq!(site.read("office.building.yaml"), before);
 }
 
 #[test]
