@@ -12,8 +12,8 @@ tools="$(rustc --print sysroot)/lib/rustlib/$(rustc --version --verbose | sed -n
 [ -x "$tools/llvm-cov" ] || rustup component add llvm-tools
 
 # Of ours alone, so that others' crates are compiled no second time. Counters lie in the file from the beginning, so that a
-# text that ends the program is counted, too.
-printf '#!/bin/sh\nexec "$@" -C instrument-coverage -C llvm-args=-runtime-counter-relocation\n' >"$made/rustc"
+# text that ends the program is counted, too. By bash: dash leaves out variables like CARGO_BIN_EXE_adit-fleet.
+printf '#!/bin/bash\nexec "$@" -C instrument-coverage -C llvm-args=-runtime-counter-relocation\n' >"$made/rustc"
 chmod +x "$made/rustc"
 export RUSTC_WORKSPACE_WRAPPER="$made/rustc" LLVM_PROFILE_FILE="$made/building-%p.profraw"
 # Some readers are other programs, which the tests start.
@@ -53,7 +53,7 @@ while read -r crate program test sources; do
         grep -o "\"executable\":\"[^\"]*/$program-[^\"]*\"" | tail -n 1 | cut -d '"' -f 4)"
     rm -f "$made"/building-*.profraw
     said="$(ADIT_FUZZ_SECONDS="$seconds" LLVM_PROFILE_FILE="$made/$name-%p%c.profraw" \
-        cargo test --quiet --locked -p "$crate" --test "$program" -- --exact "$test" --nocapture 2>&1)" || { printf '%s\n' "$said" >&2; exit 1; }
+        cargo test --quiet --locked -p "$crate" --test "$program" -- --exact "$test" --nocapture 2>&1 | tr -d '\0')" || { printf '%s\n' "$said" >&2; exit 1; }
     "$tools/llvm-profdata" merge -sparse "$made/$name"-*.profraw -o "$made/$name.profdata"
     covered="$("$tools/llvm-cov" export --summary-only --instr-profile "$made/$name.profdata" "$tried" \
         --object "$target/debug/adit" --object "$target/debug/adit-ros" 2>/dev/null | python3 -c '

@@ -121,7 +121,7 @@ impl Fuzz {
                 }
             }
         };
-        std::thread::Builder::new().stack_size(16 << 20).spawn(work).expect("a thread");
+        let reader = std::thread::Builder::new().stack_size(16 << 20).spawn(work).expect("a thread");
         let mut chance = Chance::new(number("ADIT_FUZZ_SEED", 1.0) as u64);
         let until = Instant::now() + Duration::from_secs_f64(number("ADIT_FUZZ_SECONDS", SECONDS));
         let mut known = found_before(name).into_iter();
@@ -170,6 +170,11 @@ impl Fuzz {
             if is_over {
                 break;
             }
+        }
+        drop(give);
+        // what it holds ends with it: a service, too
+        if found.is_empty() {
+            reader.join().expect("it has read all that it was given");
         }
         println!(
             "fuzz {name}: {tried} tried, {good} read, the slowest in {slowest:.1?}, {} found",
