@@ -293,3 +293,28 @@ fn a_clearance_that_no_room_would_keep_is_refused() {
     site.write("site.toml", format!("clearance = 0.0\n{}", site.read("site.toml")));
     site.adit("build", &[]).expect_status(0);
 }
+
+#[test]
+fn a_robot_that_there_is_not_is_not_drawn_for() {
+    let site = TestSite::example("paper").built();
+    let picture = site.path().join("picture.svg");
+    let picture = picture.to_str().expect("a path in letters");
+    site.adit("draw", &["-o", picture, "--robot", "nobody"])
+        .expecting(2)
+        .complains(&["there is no robot `nobody`"]);
+}
+
+#[test]
+fn what_is_amiss_with_a_map_is_noted_at_each_build_and_with_its_place() {
+    let site = TestSite::example("starter");
+    let more = "\n[[place]]\nname = \"edge\"\nat = [0.05, 0.05]\n\n[[area]]\nname = \"spill\"\nkind = \"wet\"\nrect = [-1, 1, 2, 2]\n";
+    let settings =
+        "name = \"floor\"\nmap = \"map.toml\"\nrobots = \"robots.toml\"\nrooms = \"by-state\"\n".to_owned();
+    site.write("site.toml", settings + more);
+    for _ in 0..2 {
+        let built = site.adit("build", &[]).expecting(0);
+        let said = built.stdout + &*built.stderr;
+        assert!(said.contains("no state of the robot fits at `edge`"), "{said}");
+        assert!(said.contains("site.toml:11:8: this area is cut at the edge"), "{said}");
+    }
+}
