@@ -133,9 +133,23 @@ fn make_room(database: &Path) -> Result<()> {
     if edits.is_ok_and(|edits| edits.is_empty()) {
         return std::fs::remove_file(database).map_err(|error| Error::io("replace", database, &error));
     }
-    let kept = (1..).map(|number| database.with_file_name(format!("site-{number}.db")));
-    let Some(kept) = kept.into_iter().find(|kept| !kept.exists()) else { return Ok(()) };
-    std::fs::rename(database, &kept).map_err(|error| Error::io("move away", database, &error))?;
+    let mut number = 1;
+    let mut kept = database.with_file_name("site-1.db");
+    while kept.exists() {
+        number += 1;
+        kept.set_file_name(format!("site-{number}.db"));
+    }
+    // what a program that was killed had acknowledged lies in the file beside it
+    for end in ["-wal", ""] {
+        let [from, to] = [database, &kept].map(|file| {
+            let mut name = file.as_os_str().to_owned();
+            name.push(end);
+            PathBuf::from(name)
+        });
+        if from.exists() {
+            std::fs::rename(&from, &to).map_err(|error| Error::io("move away", &from, &error))?;
+        }
+    }
     remark(&format!("what you edited in the demo of before is kept in {}", kept.display()));
     Ok(())
 }

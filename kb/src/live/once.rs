@@ -12,7 +12,7 @@ use adit_db::{Store, Tx};
 use adit_engine::{RuleBase, Schema};
 
 use super::memory::Memory;
-use super::report::Report;
+use super::report::{Report, unfit_places};
 use crate::answer::{Answer, Basis, Ground, Status, pick_robot};
 use crate::edit::{Done, Edit, Errand};
 use crate::error::{Code, Error, Finding, Result};
@@ -76,6 +76,12 @@ impl KnowledgeBase {
             }
             let (memory, mut report) = Memory::build(tx, self, inputs, progress)?;
             report.notes.extend(notes);
+            // an edit says it of what it changes, a build of all
+            for note in unfit_places(&memory.state) {
+                if !report.notes.contains(&note) {
+                    report.notes.push(note);
+                }
+            }
             Ok((memory, report))
         })
     }

@@ -393,7 +393,7 @@ impl Report {
         notes.extend(misspelt.iter().map(ToString::to_string));
         if graph.rooms.is_empty() && state.site.site().has_rooms() {
             notes.push("there is no room: no state of a robot fits anywhere on this map".to_owned());
-        } else {
+        } else if weighed.is_none() || graph.places != before.graph.places {
             notes.extend(unfit_places(state));
         }
         Self {
@@ -493,8 +493,11 @@ fn remeasured(old: &Weight, new: &Weight) -> Vec<String> {
 const NAMED: usize = 5;
 
 /// The places at which no state of a robot fits, in sentences.
-fn unfit_places(state: &State) -> Vec<String> {
+pub(super) fn unfit_places(state: &State) -> Vec<String> {
     let graph = state.graph();
+    if graph.rooms.is_empty() {
+        return Vec::new();
+    }
     let robots = graph.robots();
     let fits = |robot: &str, place: usize| {
         let end = End::Place(place);

@@ -156,7 +156,7 @@ fn said(text: &str) -> String {
     {
         return format!("{part}found `{value}`, expected {words}");
     }
-    let Some((found, expected)) = rest.split_once("expected ") else { return format!("{part}{rest}") };
+    let Some((found, expected)) = rest.rsplit_once("expected ") else { return format!("{part}{rest}") };
     if let Some(of) = expected.strip_prefix("struct ") {
         let place =
             of.split_once(" at line ").map_or_else(String::new, |(_, place)| format!(" at line {place}"));
