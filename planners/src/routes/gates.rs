@@ -185,7 +185,7 @@ impl RouteGraph {
     }
 
     /// The parts of a segment on a room's outline beyond which none like it follows.
-    fn rim(&self, room: RoomIndex, side: Segment) -> Vec<Segment> {
+    pub(super) fn rim(&self, room: RoomIndex, side: Segment) -> Vec<Segment> {
         let outline = self[room].outline.sides();
         let on = outline.filter_map(|of_room| side.shared_with(&of_room));
         let free = self.exits.portals(room).iter().filter(|exit| self.is_free(exit.door));

@@ -2,9 +2,10 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::cone::Segment;
 use super::graph::RouteGraph;
 use super::mesh::{EPSILON, Exit};
-use super::parts::RoomIndex;
+use super::parts::{DoorIndex, RoomIndex};
 use crate::geometry::Point;
 
 /// Of two layers the least and the most that a change from one into the other costs; infinite where it is not made.
@@ -54,6 +55,22 @@ impl RouteGraph {
             }
         }
         prices
+    }
+
+    /// Of a change that costs more than several one after the other: where the space of a state between ends in which they are made, so
+    /// that beyond it there is the dear change alone.
+    pub(super) fn ends_of_sequences(&self, door: DoorIndex, from: RoomIndex, to: RoomIndex) -> Vec<Segment> {
+        let Some(area) = self[door].crossing.area() else { return Vec::new() };
+        let leads_there = |between: RoomIndex| {
+            self.exits.changes(between).iter().any(|exit| exit.to == to && self.is_open(exit.door))
+        };
+        let between = self.exits.changes(from).iter().filter(|exit| exit.to != to && self.is_open(exit.door));
+        between
+            .filter(|exit| leads_there(exit.to))
+            .flat_map(|exit| self[exit.to].outline.sides().flat_map(|side| self.rim(exit.to, side)))
+            .filter_map(|end| area.clip(end))
+            .flat_map(|end| self.clear_of_walls(from, end))
+            .collect()
     }
 
     /// The changes at a point that lead from a room into another and together cost least (Dijkstra), each with what they

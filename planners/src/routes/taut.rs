@@ -312,7 +312,7 @@ impl<'g> Search<'g> {
         self.arrive(index, &node);
         self.bend(index, &node);
         for exit in self.graph.exits.portals(node.room) {
-            if exit.door != node.door {
+            if exit.door != node.door || self.goes_along(&node, *exit) {
                 self.pass(index, &node, *exit);
             }
         }
@@ -322,6 +322,13 @@ impl<'g> Search<'g> {
             }
             self.change(index, &node, *exit);
         }
+    }
+
+    /// Whether a way that has just come out of a harder room may go along the door, and back in.
+    fn goes_along(&self, node: &Node, exit: Exit) -> bool {
+        node.stop == node.door
+            && matches!(node.view, View::All)
+            && self.graph.per_m(node.room) < self.graph.per_m(exit.to)
     }
 
     /// The end of a door at which a bent node bends: that of the door by which its room was entered.
@@ -517,8 +524,12 @@ impl<'g> Search<'g> {
         };
         if !is_same {
             let Some(seen) = node.view.of_gate(node.root, segment) else { return };
+            let there = self.graph.per_m(room);
             for p in self.points(room, seen, node.root) {
-                self.push(next(p, node.root.distance(p), View::All));
+                let next = next(p, node.root.distance(p), View::All);
+                if door != node.door || !self.is_cheaper_in(room, p, next.cost + EPSILON, there) {
+                    self.push(next);
+                }
             }
             return;
         }

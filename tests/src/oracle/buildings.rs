@@ -111,20 +111,38 @@ pub fn with_areas(mut plan: Plan, chance: &mut Chance) -> Plan {
 
 /// A robot of two to four states. Changes, where there are any, cost so that no detour over a third state is cheaper.
 pub fn body(chance: &mut Chance) -> Body {
-    let all = [
-        ("STAND", chance.metres(1.5, 1.9), chance.metres(0.5, 0.7), 1.0),
-        ("SIDE", chance.metres(1.5, 1.9), chance.metres(0.3, 0.4), chance.metres(1.2, 2.5)),
-        ("SQUAT", chance.metres(0.9, 1.2), chance.metres(0.5, 0.8), chance.metres(1.5, 4.0)),
-        ("LIE", chance.metres(0.5, 0.7), chance.metres(0.4, 0.8), chance.metres(3.0, 8.0)),
-    ];
+    let states = states(chance);
     let count = 2 + chance.below(3);
-    let body = Body::new(&all[..count]);
+    let body = Body::new(&states[..count]);
     if chance.is(0.3) {
         return body;
     }
     let (low, high) = if chance.is(0.5) { (0.2, 0.4) } else { (1.0, 2.0) };
+    changing(body, || chance.metres(low, high))
+}
+
+/// A robot of three or four states of which some changes cost more than two others that come to the same.
+pub fn uneven_body(chance: &mut Chance) -> Body {
+    let states = states(chance);
+    let count = 3 + chance.below(2);
+    let dear = chance.metres(2.0, 8.0);
+    changing(Body::new(&states[..count]), || if chance.is(0.4) { dear } else { chance.metres(0.2, 1.0) })
+}
+
+fn states(chance: &mut Chance) -> [(&'static str, f64, f64, f64); 4] {
+    [
+        ("STAND", chance.metres(1.5, 1.9), chance.metres(0.5, 0.7), 1.0),
+        ("SIDE", chance.metres(1.5, 1.9), chance.metres(0.3, 0.4), chance.metres(1.2, 2.5)),
+        ("SQUAT", chance.metres(0.9, 1.2), chance.metres(0.5, 0.8), chance.metres(1.5, 4.0)),
+        ("LIE", chance.metres(0.5, 0.7), chance.metres(0.4, 0.8), chance.metres(3.0, 8.0)),
+    ]
+}
+
+/// The same with each change at a price.
+fn changing(body: Body, mut price: impl FnMut() -> f64) -> Body {
+    let count = body.states.len();
     let pairs =
         (0..count).flat_map(|from| (0..count).map(move |to| (from, to))).filter(|(from, to)| from != to);
-    let changes: Vec<_> = pairs.map(|(from, to)| (from, to, chance.metres(low, high))).collect();
+    let changes: Vec<_> = pairs.map(|(from, to)| (from, to, price())).collect();
     body.with_changes(&changes)
 }

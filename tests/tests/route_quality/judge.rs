@@ -99,6 +99,13 @@ fn along_the_edge_of_a_wet_floor_the_way_stays_dry_as_long_as_that_pays() {
 }
 
 #[test]
+fn who_stands_on_a_wet_floor_goes_along_its_dry_edge_and_back_onto_it() {
+    let plan = Plan::hall(10.0, 6.0).with_area(0.0, 0.0, 10.0, 2.0, 2.0);
+    let dry = 8.0 + 2.0 * 0.1 * (2.0f64.powi(2) - 1.0).sqrt();
+    expect(&plan, &disc(0.5), (1.0, 1.9), (9.0, 1.9), dry);
+}
+
+#[test]
 fn under_a_pipe_the_shape_is_changed_just_before_and_just_behind() {
     let plan = Plan::hall(12.0, 2.0).with_bridge(5.0, 0.0, 5.5, 2.0, 1.2);
     let body = Body::new(&[("STAND", 1.7, 0.6, 1.0), ("SQUAT", 1.0, 0.8, 4.0)])

@@ -28,6 +28,10 @@ struct Case {
 
 /// Cases by chance; `level` ones have no bridges.
 fn cases(seeds: std::ops::Range<u64>, level: bool) -> Vec<Case> {
+    cases_of(buildings::body, seeds, level)
+}
+
+fn cases_of(body: fn(&mut Chance) -> Body, seeds: std::ops::Range<u64>, level: bool) -> Vec<Case> {
     let case = |seed: u64| {
         let mut chance = Chance::new(500 + seed);
         let mut plan =
@@ -35,7 +39,7 @@ fn cases(seeds: std::ops::Range<u64>, level: bool) -> Vec<Case> {
         if level {
             plan.bridges.clear();
         }
-        let body = buildings::body(&mut chance);
+        let body = body(&mut chance);
         let built = Built::of_plan(&plan, &body, GRID);
         let mut points = Judge::new(&built, GRID).points(&mut chance, 5).into_iter();
         let start = points.next()?;
@@ -177,7 +181,8 @@ fn the_order_of_states_means_nothing() {
 #[test]
 fn a_kept_route_between_places_is_that_between_their_points() {
     let (mut wrong, mut found) = (Vec::new(), Findings::default());
-    for case in cases(80..86, false) {
+    let uneven = cases_of(buildings::uneven_body, 90..96, false);
+    for case in cases(80..86, false).into_iter().chain(uneven) {
         let names = ["one", "two", "three", "four"];
         let goals: Vec<(&str, Point)> = names.into_iter().zip(case.goals.iter().copied()).collect();
         let places: Vec<(&str, Point)> = std::iter::once(("here", case.start)).chain(goals.clone()).collect();
@@ -196,7 +201,7 @@ fn a_kept_route_between_places_is_that_between_their_points() {
                 );
             }
         }
-        wrong.extend(differences(&case, &now, 1e-6));
+        wrong.extend(differences(&case, &now, 1e-3));
     }
     expect_none(&wrong);
     expect_none(&found.wrong);

@@ -63,6 +63,15 @@ impl Search<'_> {
         if self.freely.contains(room.index()) {
             return;
         }
+        if is_in_steps {
+            for end in graph.ends_of_sequences(door, node.room, room) {
+                if let Some(seen) = node.view.of_gate(node.root, end) {
+                    for p in self.points(room, seen, node.root) {
+                        reach(self, p);
+                    }
+                }
+            }
+        }
         let mut is_step_on_a_way = None;
         for Gate { segment: gate, is_deep, is_step } in graph.gates(door, node.room) {
             if !is_deep && !self.is_near_a_goal(gate)
