@@ -213,7 +213,23 @@ impl Shape {
             "hypothesis",
             end,
         ];
-        let meant = nearest(ahead, words).map_or(String::new(), |word| format!("; did you mean `{word}`?"));
+        let meant = nearest(ahead, words).map_or_else(
+            || elsewhere(ahead, end).map_or_else(String::new, |meant| format!(": {meant}")),
+            |word| format!("; did you mean `{word}`?"),
+        );
         wrong(format!("another clause or `{end}` belongs here, not {}{meant}", found(ahead)))
     }
+}
+
+/// What is meant by a word or sign that other languages have where a rule has none.
+fn elsewhere(ahead: &str, end: &str) -> Option<String> {
+    Some(match ahead {
+        "=" => "two values are compared by `==`".to_owned(),
+        "and" => "conditions are joined by `&&`".to_owned(),
+        "or" => "conditions are joined by `||`".to_owned(),
+        "if" | "when" => "a condition begins with `where`".to_owned(),
+        "," | ";" => "clauses follow each other without a sign".to_owned(),
+        "{" | "=>" | "->" | "set" if end == "then" => "what the rule does begins with `then`".to_owned(),
+        _ => return None,
+    })
 }
