@@ -154,6 +154,8 @@ impl Cut {
             ..closed.clone()
         };
         all.graph.walls = of.closed.iter().map(wall).collect();
+        let turns = of.turns.ones().flat_map(|door| &all.pieces[door]).copied();
+        all.graph.turns = turns.map(DoorIndex::index).collect();
         all
     }
 

@@ -90,6 +90,18 @@ impl View {
         self.sees(root, near).then(|| Segment { a: end(gate.a), b: end(gate.b) })
     }
 
+    /// Whether it is one through a gap on the segment's line, which a straight way beyond it does not come to again.
+    pub fn is_through(&self, segment: Segment) -> bool {
+        match self {
+            Self::Through(gap) => {
+                gap.segment().length() > EPSILON
+                    && segment.is_in_line_with(gap.left)
+                    && segment.is_in_line_with(gap.right)
+            }
+            _ => false,
+        }
+    }
+
     pub fn sees(&self, root: Point, p: Point) -> bool {
         let slack = EPSILON * root.distance(p).max(EPSILON);
         match self {

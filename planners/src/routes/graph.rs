@@ -5,6 +5,8 @@ use std::collections::BTreeMap;
 use std::ops::{Index, Range};
 use std::sync::OnceLock;
 
+use fixedbitset::FixedBitSet;
+
 use super::hierarchy::Hierarchy;
 use super::mesh::{Exit, Exits};
 use super::parts::{DoorIndex, Passing, RoomIndex, RouteDoor, RouteRoom, Walking};
@@ -30,6 +32,8 @@ pub struct RouteGraph {
     pub(super) cut: OnceLock<Box<Cut>>,
     /// Boundaries along which these rooms are cut already.
     pub(super) walls: Vec<Closed>,
+    /// Doors at which a way may turn back.
+    pub(super) turns: FixedBitSet,
 }
 
 impl RouteGraph {
@@ -48,7 +52,14 @@ impl RouteGraph {
             closed: Vec::new(),
             cut: OnceLock::new(),
             walls: Vec::new(),
+            turns: FixedBitSet::new(),
         }
+    }
+
+    /// Lets ways turn back at some doors, where rooms weigh their metres: elsewhere none is better for it, and none is looked for.
+    pub fn turn_back_at(&mut self, doors: impl IntoIterator<Item = DoorIndex>) {
+        self.turns = doors.into_iter().map(DoorIndex::index).collect();
+        self.cut.take();
     }
 
     /// Where ways that weigh metres may turn.

@@ -10,7 +10,7 @@ mod changes;
 mod missed;
 
 use std::cmp::Ordering;
-use std::collections::{BTreeMap, BinaryHeap, HashSet};
+use std::collections::{BTreeMap, BinaryHeap, HashMap, HashSet};
 
 use fixedbitset::FixedBitSet;
 
@@ -37,8 +37,8 @@ const SLACK: f64 = 0.03;
 /// So many ways to a goal are pulled tight.
 const MOST_WAYS: usize = 16;
 
-/// So many of those that change their shape for the last time, or are refracted, at the same door.
-const MOST_ALIKE: usize = 12;
+/// So many of those that change their shape, or are refracted, at the same doors one after the other.
+const MOST_ALIKE: usize = 4;
 
 /// So many ways into a room, where ways to all are asked for.
 const MOST_INTO_ROOM: usize = 4;
@@ -133,6 +133,8 @@ pub(super) struct Search<'g> {
     bent: Vec<f64>,
     /// Roots from which a room was looked at already: the room, the point, and to which side.
     looked: HashSet<(RoomIndex, u64, u64, u8)>,
+    /// How many ways to a goal were found that stop at the same doors.
+    alike: HashMap<(usize, Vec<DoorIndex>), usize>,
     outcome: Outcome,
     /// Rooms into which shapes are changed on all sides of areas, not on gates only.
     freely: FixedBitSet,
@@ -200,6 +202,7 @@ impl<'g> Search<'g> {
             offered: vec![Vec::new(); rooms],
             bent: vec![f64::INFINITY; turning.bends.len()],
             looked: HashSet::new(),
+            alike: HashMap::new(),
             outcome,
             freely,
         }
@@ -237,10 +240,12 @@ impl<'g> Search<'g> {
                     let (goal, found) = self.found[found as usize];
                     let known = &self.outcome.goals[goal];
                     missing -= usize::from(known.is_empty());
-                    let stop = self.stop_of(&found);
-                    let alike = known.iter().filter(|known| self.stop_of(known) == stop).count();
-                    if known.len() < MOST_WAYS && alike < MOST_ALIKE {
-                        self.outcome.goals[goal].push(found);
+                    if known.len() < MOST_WAYS {
+                        let alike = self.alike.entry((goal, self.stops_of(&found))).or_default();
+                        *alike += 1;
+                        if *alike <= MOST_ALIKE {
+                            self.outcome.goals[goal].push(found);
+                        }
                     }
                     let is_done = self.wanted == Wanted::One || missing == 0 && self.wanted == Wanted::Goals;
                     if is_done && !is_last {
@@ -441,6 +446,20 @@ impl<'g> Search<'g> {
         found.change.map_or(self.nodes[found.node as usize].stop, |exit| exit.door)
     }
 
+    /// All doors at which it stops, the last one first.
+    fn stops_of(&self, found: &Found) -> Vec<DoorIndex> {
+        let mut stops = vec![self.stop_of(found)];
+        let mut index = found.node;
+        while index != NO_NODE {
+            let node = &self.nodes[index as usize];
+            if stops.last() != Some(&node.stop) {
+                stops.push(node.stop);
+            }
+            index = node.before;
+        }
+        stops
+    }
+
     /// Whether ways to all rooms are asked for, and those into this one that are known leave a chance that one of this cost is
     /// the best when they are pulled tight.
     fn is_news(&self, room: RoomIndex, stop: DoorIndex, cost: f64) -> bool {
@@ -512,6 +531,7 @@ impl<'g> Search<'g> {
             return;
         }
         let is_same = self.graph.per_m(room).to_bits() == here.to_bits();
+        let is_turned_at = self.graph.turns.contains(door.index());
         let next = |root: Point, way: f64, view: View| Node {
             root,
             cost: node.cost + way * here + weight,
@@ -522,15 +542,18 @@ impl<'g> Search<'g> {
             bent: false,
             view,
         };
-        if !is_same {
-            let Some(seen) = node.view.of_gate(node.root, segment) else { return };
+        if (!is_same || is_turned_at)
+            && let Some(seen) = node.view.of_gate(node.root, segment)
+        {
             let there = self.graph.per_m(room);
             for p in self.points(room, seen, node.root) {
-                let next = next(p, node.root.distance(p), View::All);
+                let next = Node { stop: door, ..next(p, node.root.distance(p), View::All) };
                 if door != node.door || !self.is_cheaper_in(room, p, next.cost + EPSILON, there) {
                     self.push(next);
                 }
             }
+        }
+        if !is_same {
             return;
         }
         let is_inside = !matches!(node.view, View::Through(_));
@@ -547,6 +570,9 @@ impl<'g> Search<'g> {
                     self.push(next(near, way, View::All));
                 }
             }
+            return;
+        }
+        if node.view.is_through(segment) {
             return;
         }
         let Some(seen) = node.view.of(node.root, segment) else { return };

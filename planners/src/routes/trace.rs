@@ -49,7 +49,9 @@ fn links(
                 Some(segment) if !is_new => segment.passed_at(node.root, to),
                 _ => node.root,
             };
-            links.push(Link::new(graph, door, at, node.room));
+            let link = Link::new(graph, door, at, node.room);
+            let is_straight = link.is_straight && !(is_new && node.stop == door);
+            links.push(Link { is_straight, ..link });
         }
         if before.is_none() {
             links.reverse();

@@ -99,6 +99,28 @@ fn the_number_that_why_not_names_turns_the_way_and_where_it_names_none_firm_has_
     assert!(named >= 4, "{named} named, {none} none, {cut} cut");
 }
 
+#[test]
+fn through_a_room_costs_no_more_than_by_a_point_in_it() {
+    let site = TestSite::example("clinic").built();
+    let live = live(&site);
+    let rooms = site.sqlite3(
+        "SELECT name, (x0 + x1) / 2, (y0 + y1) / 2 FROM rooms WHERE state = 'STAND' AND x1 - x0 > 0.05 \
+         AND y1 - y0 > 0.05 ORDER BY (room * 7919) % 1009 LIMIT 12",
+    );
+    let mut compared = 0;
+    for room in &rooms {
+        let [name, x, y] = room.split('|').collect::<Vec<_>>()[..] else { panic!("{room}") };
+        let cost = |through: &str| live.why_not("dock", "ward 12", through, None).unwrap().cost;
+        let (Some(through), Some(by)) = (cost(&format!("room {name}")), cost(&format!("{x},{y}"))) else {
+            continue;
+        };
+        compared += 1;
+        // off walls, ways may cost a hundredth more than they must
+        assert!(through <= by * 1.01, "room {name}: {through}, by its middle {x},{y}: {by}");
+    }
+    assert!(compared >= 6, "{compared} of {}", rooms.len());
+}
+
 /// A wall with two doorways; by the second one it is farther.
 const TWO_DOORWAYS: &str = "width = 12.0\ndepth = 8.0\n\
     [[obstacle]]\nrect = [5.9, 0.0, 6.1, 2.0]\n[[obstacle]]\nrect = [5.9, 3.0, 6.1, 6.0]\n\

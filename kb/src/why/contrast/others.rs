@@ -70,7 +70,8 @@ impl Contrast for Beside<'_> {
             }
             let best = self.all.best(weights, f64::INFINITY)?;
             let cost = best.cost(weights);
-            return if self.is_turned(cost, *least) {
+            // what the others cost at least is not exact to the last digit
+            return if self.is_turned(cost, *least) || self.others.holds(&best) == Some(true) {
                 self.look(weights)
             } else {
                 has_not_won((best, cost), *least)

@@ -197,6 +197,12 @@ impl Copies {
         }
         let rooms = graph.rooms().iter().chain(graph.rooms()).cloned().collect();
         let mut both = RouteGraph::new(rooms, copies);
+        // who has come through may go back at once
+        let into_second =
+            |(_, door): &(DoorIndex, &RouteDoor)| door.room1.index() < count && door.room2.index() >= count;
+        let turns: Vec<DoorIndex> =
+            both.door_indices().zip(both.doors()).filter(into_second).map(|(index, _)| index).collect();
+        both.turn_back_at(turns);
         let twice = |rooms: &Range<usize>| [rooms.clone(), rooms.start + count..rooms.end + count];
         let of_both = |closed: &Closed| Closed {
             only: closed.only.as_ref().map(|only| only.iter().flat_map(twice).collect()),
