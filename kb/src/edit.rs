@@ -215,8 +215,16 @@ impl Edit {
 }
 
 impl Edit {
+    /// A word about what an edit leaves as people may not expect it: a cell that does not count, a state whose changes no row prices.
+    pub(crate) fn remark(&self, tx: &mut Tx<'_>, done: &Done) -> Result<Option<String>> {
+        match self {
+            Self::Add(table, ..) if table == "robots" => unpriced(tx, done),
+            _ => self.overridden(tx, done),
+        }
+    }
+
     /// A word about a cell that was set and does not count, since a tuning that is on says otherwise.
-    pub(crate) fn overridden(&self, tx: &mut Tx<'_>, done: &Done) -> Result<Option<String>> {
+    fn overridden(&self, tx: &mut Tx<'_>, done: &Done) -> Result<Option<String>> {
         let (Self::Set(table, _, column, _) | Self::SetFrom([table, _, column], ..)) = self else {
             return Ok(None);
         };
@@ -230,6 +238,19 @@ impl Edit {
             )
         }))
     }
+}
+
+/// A word about a new state of a robot that has others, where no row says what changing into it or out of it costs.
+fn unpriced(tx: &mut Tx<'_>, done: &Done) -> Result<Option<String>> {
+    let Some((robot, state)) = done.key.split_once('/') else { return Ok(None) };
+    let has_others = tx.states()?.iter().any(|other| other.robot == robot && other.state != state);
+    let is_priced = tx
+        .changes()?
+        .iter()
+        .any(|change| change.robot == robot && (change.from_state == state || change.to_state == state));
+    Ok((has_others && !is_priced).then(|| {
+        format!("no row of changes says what it costs {robot} to change into {state} and out of it: rules alone say it, the shipped ones that it costs nothing")
+    }))
 }
 
 /// That a cell is another one by now: who made it so, and when.

@@ -16,7 +16,7 @@ mod estimate;
 mod nnls;
 mod upload;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use adit_db::history::Author;
 use adit_db::robot::State;
@@ -90,6 +90,8 @@ pub enum Scale<'a> {
 pub struct Added {
     /// Rows that were added.
     pub added: usize,
+    /// How many of them are as one that was there already, and count twice from now on.
+    pub again: usize,
     /// Rows that there now are.
     pub total: usize,
 }
@@ -99,7 +101,13 @@ pub(crate) fn add(tx: &mut Tx<'_>, rows: &[Row], measure: Option<&str>, author: 
     let (states, before) = (tx.states()?, tx.traversals()?);
     let new = upload::checked(rows, measure, &states, &before, &author.who)?;
     tx.add_traversals(&new)?;
-    Ok(Added { added: new.len(), total: before.len() + new.len() })
+    let key = |row: &Traversal| {
+        let Traversal { mission, robot, state, distance, measured, measure, .. } = row.clone();
+        (mission, robot, state, measure, distance.to_bits(), measured.to_bits())
+    };
+    let known: BTreeSet<_> = before.iter().map(key).collect();
+    let again = new.iter().filter(|row| known.contains(&key(row))).count();
+    Ok(Added { added: new.len(), again, total: before.len() + new.len() })
 }
 
 impl KnowledgeBase {

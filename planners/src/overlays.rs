@@ -3,6 +3,8 @@
 mod coverage;
 mod members;
 
+use std::collections::BTreeSet;
+
 use crate::facts::{Column, Facts, Table};
 use crate::planner::{Planner, PlannerError, Signature};
 use crate::world::{Property, World};
@@ -33,6 +35,17 @@ const OWN: [(&str, &str, &str); 13] = [
 /// What kind of values one of [`OWN`] holds; `None` for a property that only a site gives.
 pub(crate) fn own_kind(class: &str, property: &str) -> Option<&'static str> {
     OWN.iter().find(|own| own.0 == class && own.1 == property).map(|own| own.2)
+}
+
+/// Properties that every object of a class has, known or not.
+pub fn own(class: &str) -> impl Iterator<Item = &'static str> {
+    OWN.iter().filter(move |own| own.0 == class).map(|own| own.1)
+}
+
+/// Properties, by class, that a site alone gives its named areas and doors.
+pub fn only_of_site(world: &World) -> BTreeSet<(&'static str, &str)> {
+    let said = further(world).map(|(class, (property, _))| (class, property.as_str()));
+    said.filter(|(class, property)| own_kind(class, property).is_none()).collect()
 }
 
 /// Zones of VDA 5050 that an area may say that it is; the two others are said otherwise.

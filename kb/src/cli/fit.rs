@@ -7,7 +7,7 @@ use clap::Args;
 
 use super::args::SiteArgs;
 use super::build::open;
-use super::output::{either, line, table};
+use super::output::{either, line, remark, table};
 use super::tune::author;
 use crate::error::{Error, Result};
 use crate::fit::{Fit, Scale, rows_of_csv};
@@ -52,6 +52,11 @@ pub fn run(args: &FitArgs) -> Result<()> {
         let added = knowledge.add_traversals(&rows_of_csv(&text)?, args.measure.as_deref(), &author(""))?;
         if !args.site.json {
             line(&format!("{} traversals are added, {} in all", added.added, added.total));
+        }
+        if added.again == added.added && added.again > 1 {
+            remark(
+                "note: each of them was there already, and counts twice now; `--clear --add FILE` has those of a file alone",
+            );
         }
     }
     let scale = match &args.reference {

@@ -11,7 +11,8 @@ use adit_db::space::Doorway;
 use adit_db::told::Told as Row;
 use adit_engine::RuleBase;
 use adit_planners::facts::Column;
-use adit_planners::geometry::Rect;
+use adit_planners::geometry::tolerance::SNAP_M;
+use adit_planners::geometry::{Point, Rect};
 
 use super::place;
 use super::tell::Tell;
@@ -97,7 +98,7 @@ pub(super) fn open(
     let opens = |fact: &&Row| fact.property == CLOSED && fact.value == adit_db::Cell::Integer(0);
     let is_told = facts.iter().any(opens);
     facts.retain(|fact| !opens(fact));
-    if facts.is_empty() && (is_told || tell.class == "DOORWAYS" && !is_shut(tx, what)?) {
+    if facts.is_empty() && (is_told || tell.class == "DOORWAYS" && !is_shut(tx, what, &row)?) {
         let message = format!("`{what}` is open already");
         return Err(Error::said(Code::TellUsage, message, None));
     }
@@ -138,12 +139,19 @@ fn as_doorway(tx: &mut Tx<'_>, tell: &Tell) -> Result<Option<Tell>> {
     Ok(is_doorway.then(|| Tell { class: "DOORWAYS".to_owned(), ..tell.clone() }))
 }
 
-/// Whether a doorway of this name is closed, by whatever; one that is meant by its point may be.
-fn is_shut(tx: &mut Tx<'_>, what: &str) -> Result<bool> {
+/// Whether a doorway is closed, by whatever: that of a name, or the one about whose middle a fact is told.
+fn is_shut(tx: &mut Tx<'_>, what: &str, row: &[(&str, adit_db::Cell)]) -> Result<bool> {
     let building = Building::read(tx)?;
-    Ok(building
-        .doorway_named(what.trim())
-        .is_none_or(|doorway| doorway.closed == Some(true) || doorway.closed_from.is_some()))
+    let real = |name: &str| match row.iter().find(|(column, _)| *column == name) {
+        Some((_, adit_db::Cell::Real(value))) => Some(*value),
+        _ => None,
+    };
+    let middle = real("x").zip(real("y")).map(|(x, y)| Point::new(x, y));
+    let is_meant = |doorway: &&Doorway| {
+        middle.is_some_and(|middle| Building::segment(doorway).middle().distance(middle) <= SNAP_M)
+    };
+    let doorway = building.doorway_named(what.trim()).or_else(|| building.doorways.iter().find(is_meant));
+    Ok(doorway.is_some_and(|doorway| doorway.closed == Some(true) || doorway.closed_from.is_some()))
 }
 
 /// What people have a name for, with its class. A doorway in which a named door stands is that door, whatever it is called.

@@ -220,6 +220,9 @@ impl Tell {
                 .or_else(|| found.filter(|found| [0.0, 1.0].contains(found)).map(|found| found != 0.0))
                 .map(as_truth)
                 .ok_or_else(|| wrong("truth values (true or false)")),
+            Some(Type::Number) if self.property == "hardness" && found.is_some_and(|found| found < 0.0) => {
+                Err(wrong("numbers that are not negative"))
+            }
             Some(Type::Number) => found.map(as_number).ok_or_else(|| wrong("numbers")),
             Some(Type::Text) => Ok(("text", text.into())),
             None => Ok(truth.map(as_truth).or(found.map(as_number)).unwrap_or(("text", text.into()))),

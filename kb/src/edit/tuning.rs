@@ -9,8 +9,8 @@ use super::cells::{cell_of, columns, explain};
 use crate::error::{Code, Error, Result};
 use crate::words::suggest::did_you_mean;
 
-const CELLS: &str = "tuning_cells";
-const ACTIVE: &str = "active_tunings";
+pub(super) const CELLS: &str = "tuning_cells";
+pub(super) const ACTIVE: &str = "active_tunings";
 
 /// Sets a cell of a tuning. The table must take the value, as if it were its own.
 pub fn set(tx: &mut Tx<'_>, tuning: &str, cell: &[String; 4], author: &Author) -> Result<Edited> {

@@ -6,10 +6,14 @@ use jiff::Span;
 use serde_json::{Map, Value};
 
 use super::file::{self, Write};
+use super::tuning::{ACTIVE, CELLS};
 use super::{Done, Edit};
 use crate::knowledge::told::Whom;
 use crate::site::journal::FILES;
 use crate::words::number::number;
+
+/// The table of told facts.
+const FACTS: &str = "told";
 
 impl Edit {
     /// In a few words, what an edit did.
@@ -32,7 +36,7 @@ impl Edit {
                 format!("fact {key}: {} {} {} = {}", fact.class, fact.object, fact.property, fact.value)
             }
             Self::Close(close) => {
-                let until = close.until.as_deref().map_or_else(String::new, ends);
+                let until = close.until.as_deref().map_or_else(String::new, |until| ends(until, new));
                 let whom = match (close.only.as_slice(), close.except.as_slice()) {
                     ([], []) => Whom::All,
                     (only, []) => Whom::Only(only.to_vec()),
@@ -43,7 +47,7 @@ impl Edit {
             }
             Self::Open(what) => format!("{what} is open"),
             Self::Lay(lay) => {
-                let until = lay.until.as_deref().map_or_else(String::new, ends);
+                let until = lay.until.as_deref().map_or_else(String::new, |until| ends(until, new));
                 format!("the {} `{key}` lies over the map{until}", lay.what.name())
             }
             Self::Lift(name) => format!("`{name}` no longer lies over the map"),
@@ -82,8 +86,11 @@ impl Edit {
 
 /// What an entry of the history is about.
 pub(crate) fn subject(Entry { table, key, column, .. }: &Entry) -> String {
-    if table == FILES {
-        return file::called(key);
+    match table.as_str() {
+        FILES => return file::called(key),
+        FACTS => return format!("fact {key}"),
+        CELLS | ACTIVE => return format!("tuning {}", key.split('/').next().unwrap_or(key)),
+        _ => {}
     }
     let column = column.as_ref().map_or_else(String::new, |column| format!(".{column}"));
     format!("{table}.{key}{column}")
@@ -91,7 +98,13 @@ pub(crate) fn subject(Entry { table, key, column, .. }: &Entry) -> String {
 
 /// What became of a cell or a row, of which the history keeps what it was and what it is.
 pub(crate) fn change(old: &Cell, new: &Cell) -> String {
-    let said = |cell: &Cell| fact(cell).or_else(|| laid(cell)).or_else(|| row(cell));
+    match (is_switch(old), is_switch(new)) {
+        (false, true) => return "off → on".to_owned(),
+        (true, false) => return "on → off".to_owned(),
+        _ => {}
+    }
+    let said =
+        |cell: &Cell| fact(cell).or_else(|| laid(cell)).or_else(|| setting(cell)).or_else(|| row(cell));
     match (said(old), said(new)) {
         (None, Some(row)) => format!("new: {row}"),
         (Some(row), None) => format!("gone: {row}"),
@@ -114,13 +127,20 @@ pub(crate) fn entry(of: &Entry) -> String {
     }
 }
 
-/// Whether a row says that a tuning is on.
-/// ` until 18:00`, ` for 2h`.
-fn ends(until: &str) -> String {
-    let is_span = until.parse::<Span>().is_ok();
-    format!(" {} {until}", if is_span { "for" } else { "until" })
+/// When a row ends, as it was said, and as it was understood where that says more:
+/// ` until 18:00 (2026-11-28T18:00:00Z)`, ` for 2h (until 2026-11-28T11:30:00Z)`.
+fn ends(said: &str, row: &Cell) -> String {
+    let is_span = said.parse::<Span>().is_ok();
+    let end = object(row).and_then(|row| Some(row.get("until")?.as_str()?.to_owned()));
+    let understood = match end.filter(|end| !end.starts_with(said)) {
+        Some(end) if is_span => format!(" (until {end})"),
+        Some(end) => format!(" ({end})"),
+        None => String::new(),
+    };
+    format!(" {} {said}{understood}", if is_span { "for" } else { "until" })
 }
 
+/// Whether a row says that a tuning is on.
 fn is_switch(row: &Cell) -> bool {
     object(row).is_some_and(|row| row.len() == 1 && row.contains_key("tuning"))
 }
@@ -164,6 +184,14 @@ fn laid(row: &Cell) -> Option<String> {
     Some(said.join(", "))
 }
 
+/// What a cell of a tuning says, where a row is one: `robots.robot/SQUAT.hardness = 6`.
+fn setting(row: &Cell) -> Option<String> {
+    let row = object(row)?;
+    let text = |column: &str| row.get(column)?.as_str();
+    let (_, table, key, column) = (text("tuning")?, text("table_name")?, text("key")?, text("column_name")?);
+    Some(format!("{table}.{key}.{column} = {}", plain(row.get("value")?)))
+}
+
 fn object(row: &Cell) -> Option<Map<String, Value>> {
     let Cell::Text(text) = row else { return None };
     serde_json::from_str(text).ok()
@@ -171,8 +199,17 @@ fn object(row: &Cell) -> Option<Map<String, Value>> {
 
 fn pair(name: &str, value: &Value) -> String {
     match value {
-        Value::String(text) => format!("{name} {text}"),
-        value => format!("{name} {value}"),
+        // rows that came or went with this one
+        Value::Array(rows) => format!("with {} {name}", rows.len()),
+        value => format!("{name} {}", plain(value)),
+    }
+}
+
+fn plain(value: &Value) -> String {
+    match (value, value.as_f64()) {
+        (Value::String(text), _) => text.clone(),
+        (_, Some(value)) => number(value),
+        (value, None) => value.to_string(),
     }
 }
 

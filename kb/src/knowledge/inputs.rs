@@ -77,7 +77,10 @@ impl Inputs {
         (planners, asked): (&[Arc<dyn Planner>], &[String]),
     ) -> Self {
         let ignored = lint::ignored(site, rule_folder, &base, planners, asked).into_iter();
-        let ignored = ignored.map(|problem| problem.to_string()).chain(lint::unheard(&base, &self.world));
+        let ignored = ignored
+            .map(|problem| problem.to_string())
+            .chain(lint::unheard(&base, &self.world))
+            .chain(lint::unread_of_named(&base, &self.world));
         let notes = ignored.chain(self.of_map.iter().cloned()).collect();
         let rule_names = (1..).zip(base.rules().iter().map(|rule| rule.name().to_owned())).collect();
         Self {

@@ -102,7 +102,7 @@ impl KnowledgeBase {
         let inputs = site.inputs(progress)?;
         let work = |tx: &mut Tx<'_>| -> Result<(Done, Report)> {
             let (done, mut report) = Memory::edit(tx, &site, &inputs, (edit, author), progress)?;
-            report.notes.extend(edit.overridden(tx, &done)?);
+            report.notes.extend(edit.remark(tx, &done)?);
             Ok((done, report))
         };
         if rehearse {
@@ -326,36 +326,40 @@ impl KnowledgeBase {
     }
 }
 
-/// Fills the places of a map that is not cut into rooms the first time, or when asked; otherwise says where file and table
-/// differ.
 /// What vehicles can carry on a map, the first time or when asked.
 fn seed_loads(tx: &mut Tx<'_>, loads: &[Load], again: bool) -> Result<Option<String>> {
     if loads.is_empty() {
         return Ok(None);
     }
-    if again || tx.site_value(LAYOUT)?.is_none() {
+    let (kept, is_first) = (tx.loads()?, tx.site_value(LAYOUT)?.is_none());
+    if again || is_first {
         tx.replace_loads(loads)?;
-        return Ok(None);
     }
-    let kept = tx.loads()?;
     let is_kept = |load: &Load| kept.iter().any(|of| (&of.robot, &of.load) == (&load.robot, &load.load));
-    let note =
-        "the file names other loads than the table loads; the database counts (--reseed takes the file)";
-    Ok((!loads.iter().all(is_kept)).then(|| note.to_owned()))
+    let note = if again {
+        "the table loads is as the file has it again; it named other loads"
+    } else {
+        "the file names other loads than the table loads; the database counts (--reseed takes the file)"
+    };
+    Ok((!is_first && !loads.iter().all(is_kept)).then(|| note.to_owned()))
 }
 
+/// Fills the places of a map that is not cut into rooms the first time, or when asked; says where file and table differed.
 fn seed_places(tx: &mut Tx<'_>, places: &[Place], again: bool) -> Result<Option<String>> {
     let kept = tx.places()?;
     // what a build has signed was filled before, and whoever took all places away meant it
-    if again || tx.site_value(LAYOUT)?.is_none() {
+    let is_first = tx.site_value(LAYOUT)?.is_none();
+    if again || is_first {
         tx.replace_places(places)?;
-        return Ok(None);
     }
     let mut sorted = places.to_vec();
     sorted.sort_by(|one, other| one.place.cmp(&other.place));
-    let note =
-        "the files name other places than the table places; the database counts (--reseed takes the files)";
-    Ok((kept != sorted).then(|| note.to_owned()))
+    let note = if again {
+        "the table places is as the files have it again; it named other places"
+    } else {
+        "the files name other places than the table places; the database counts (--reseed takes the files)"
+    };
+    Ok((!is_first && kept != sorted).then(|| note.to_owned()))
 }
 
 /// Whether no build has ever come to its end in the database, nor is at work there now.

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use adit_engine::{Dominated, Instead, Misspelt, Replaced, Rule, RuleBase, Standing};
+use adit_planners::overlays::{AREAS, only_of_site, own};
 use adit_planners::planner::Planner;
 use adit_planners::world::World;
 use miette::NamedSource;
@@ -109,6 +110,23 @@ pub fn unheard(rules: &RuleBase, world: &World) -> Vec<String> {
             format!("the site has {count} {what}, and no rule reads {rooms}: they change nothing")
         })
         .collect()
+}
+
+/// What a site says of its named areas and doors and no rule reads, in sentences: a slip of the pen, mostly.
+pub fn unread_of_named(rules: &RuleBase, world: &World) -> Vec<String> {
+    let read: BTreeSet<String> =
+        rules.rules().iter().flat_map(Rule::reads).map(ToString::to_string).collect();
+    let is_unread = |(class, property): &(&str, &str)| !read.contains(&format!("{class}.{property}"));
+    let sentence = |(class, property): (&str, &str)| {
+        let mut known: Vec<&str> = own(class).chain(["rect", "polygon", "line", "kind", "name"]).collect();
+        let of_class = read.iter().filter_map(|name| name.split_once('.')).filter(|(of, _)| *of == class);
+        known.extend(of_class.map(|(_, property)| property));
+        let help = did_you_mean(property, known.into_iter());
+        let help = help.map_or_else(String::new, |help| format!(" ({help})"));
+        let whose = if class == AREAS { "area" } else { "door" };
+        format!("no rule reads the property `{property}` of a named {whose}: it changes nothing{help}")
+    };
+    only_of_site(world).into_iter().filter(is_unread).map(sentence).collect()
 }
 
 /// Rules that make objects which are not for rules to make, and rules that read routes, which follow from what they conclude:

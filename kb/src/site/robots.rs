@@ -62,17 +62,21 @@ impl RobotFile {
     /// `path` is the file, for the notes.
     pub fn seed_tables(&self, tx: &mut Tx<'_>, path: &Path, again: bool) -> Result<Vec<String>> {
         let (states, changes, loads) = (tx.states()?, tx.changes()?, tx.loads()?);
-        if states.is_empty() || again {
+        let is_first = states.is_empty();
+        let what = if is_first { None } else { self.differences(&states, &changes, &loads) };
+        if is_first || again {
             tx.seed(&self.robots, &self.changes)?;
             tx.replace_loads(&self.loads)?;
-            return Ok(Vec::new());
         }
-        let what = self.differences(&states, &changes, &loads);
+        let file = path.display();
         let note = |what| {
-            let file = path.display();
-            format!(
-                "{file} differs from the database in {what}; the database counts (--reseed takes the file)"
-            )
+            if again {
+                format!("the tables are as {file} has them again; they differed in {what}")
+            } else {
+                format!(
+                    "{file} differs from the database in {what}; the database counts (--reseed takes the file)"
+                )
+            }
         };
         Ok(what.map(note).into_iter().collect())
     }

@@ -90,7 +90,7 @@ impl State {
     }
 
     /// What people have names for.
-    fn named(&self) -> Named<'_> {
+    pub(super) fn named(&self) -> Named<'_> {
         let names = |class: &str, key: &str| {
             let texts = self.knowledge.texts(class, key).unwrap_or_default();
             texts.into_iter().flatten().map(|name| name.to_string()).collect()

@@ -35,9 +35,17 @@ impl Subject {
                 return Ok(Self { name: text.trim().to_owned(), ..found });
             }
         }
+        if let Some(found) = Self::called(fork, text.trim()) {
+            return Ok(found);
+        }
         let Some((class, rest)) = text.trim().split_once('.') else {
             let message = format!("`{text}` names no object");
-            let help = "say `door 7`, `room d`, `doors.7` or `doors.7.hardness`".to_owned();
+            let named = fork.named();
+            let help =
+                did_you_mean(text.trim(), named.names().collect::<Vec<_>>().iter().map(String::as_str));
+            let help = help.unwrap_or_else(|| {
+                "say what the building has a name for, or `door 7`, `room d`, `doors.7`, `doors.7.hardness`".to_owned()
+            });
             return Err(Error::said(Code::WhyUnknown, message, Some(help)));
         };
         let class = class.to_lowercase();
@@ -47,6 +55,13 @@ impl Subject {
         let (key, property) = rest.rsplit_once('.').unwrap_or((rest, ""));
         let property = Some(property).filter(|property| !property.is_empty()).map(str::to_owned);
         Self::of(fork, &class, key, property).ok_or_else(|| unknown(fork, &class, key))
+    }
+
+    /// What the building has this name for.
+    fn called(fork: &State, name: &str) -> Option<Self> {
+        let class = fork.named().class_of(name)?.to_lowercase();
+        let found = Self::of(fork, &class, name, None)?;
+        Some(Self { name: name.to_owned(), ..found })
     }
 
     fn of(fork: &State, class: &str, key: &str, property: Option<String>) -> Option<Self> {

@@ -150,6 +150,7 @@ impl State {
         let parts: Vec<Part> = parts(self.graph(), &best, routes.is_on_doors());
         let is_other = |part: &&Part| !ease.is_easiest(&part.manner);
         let is_meant = |part: &&Part| meant.as_ref().is_none_or(|meant| is_at(self.graph(), meant, part));
+        let is_passed = meant.is_none() || parts.iter().any(|part| is_meant(&part));
         let asked: Vec<&Part> = parts.iter().filter(is_other).filter(is_meant).collect();
         let mut manners: Vec<Manner> = Vec::new();
         for part in &asked {
@@ -190,7 +191,7 @@ impl State {
             let Some(place) = manners.iter().position(|manner| *manner == part.manner) else { continue };
             (stretch.without, stretch.holds) = (said[place].clone(), holds[place].clone());
         }
-        answer.sentences = words::sentences(&answer, meant.as_ref());
+        answer.sentences = words::sentences(&answer, meant.as_ref(), is_passed);
         Ok(answer)
     }
 

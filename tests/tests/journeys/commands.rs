@@ -272,6 +272,19 @@ each_page! {
 }
 
 #[test]
+fn every_verb_has_its_line_in_the_manual() {
+    let page = fs::read_to_string(repository().join("manual/src/commands.md")).expect("a page");
+    let help = Command::new(adit()).arg("--help").output().expect("the program runs").stdout;
+    let help = String::from_utf8(help).expect("text");
+    let verbs = help.lines().filter_map(|line| line.strip_prefix("  ")?.split(' ').next());
+    let verbs: Vec<&str> =
+        verbs.filter(|verb| verb.starts_with(char::is_lowercase) && *verb != "help").collect();
+    assert!(verbs.len() > 30, "{help}");
+    let is_there = |verb: &&&str| [' ', '`'].iter().any(|end| page.contains(&format!("`{verb}{end}")));
+    assert_eq!(verbs.iter().filter(|verb| !is_there(verb)).collect::<Vec<_>>(), Vec::<&&str>::new());
+}
+
+#[test]
 fn no_other_page_prints_a_command() {
     let mut found = Vec::new();
     pages(&repository(), &mut found);

@@ -37,6 +37,7 @@ mod measures;
 mod navigation;
 mod no_map;
 mod nothing_half;
+mod nothing_in_silence;
 mod odd_rules;
 mod on;
 mod one_step;

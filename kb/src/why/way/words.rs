@@ -9,9 +9,20 @@ use crate::why::said::{capital, cell, listed, roughly};
 use crate::words::number::number;
 
 /// A paragraph a stretch; one sentence where nothing is done but what is easiest.
-pub fn sentences(answer: &WhyWay, at: Option<&Meant>) -> Vec<String> {
+///
+/// # Arguments
+/// `is_passed`: whether the route leads through, or by, what was asked about.
+pub fn sentences(answer: &WhyWay, at: Option<&Meant>, is_passed: bool) -> Vec<String> {
     if !answer.stretches.is_empty() {
         return answer.stretches.iter().map(|stretch| paragraph(stretch, &answer.robot)).collect();
+    }
+    if let (Some(at), false) = (at, is_passed) {
+        return vec![format!(
+            "The route from {} to {} does not lead {}.",
+            answer.start,
+            answer.goal,
+            at.words()
+        )];
     }
     let place = at.map_or_else(|| "all along".to_owned(), Meant::words);
     let easiest = answer.easiest.as_ref().map_or_else(
@@ -38,6 +49,8 @@ fn paragraph(stretch: &Stretch, robot: &str) -> String {
         said.push_str(&stretch.failed.join("; "));
     }
     said.push('.');
+    // in the paper's modes rules choose what is done at a door, so that without it there is another door, not another state
+    let name = if stretch.state.is_some() { name } else { format!("a door at which that is done ({name})") };
     match &stretch.without {
         Some(other) if other.more > 0.0 => {
             let by = if other.by.is_empty() { String::new() } else { format!(", by {}", listed(&other.by)) };
