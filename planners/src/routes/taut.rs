@@ -11,6 +11,7 @@ mod missed;
 
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BinaryHeap, HashMap, HashSet};
+use std::rc::Rc;
 
 use fixedbitset::FixedBitSet;
 
@@ -133,6 +134,8 @@ pub(super) struct Search<'g> {
     bent: Vec<f64>,
     /// Roots from which a room was looked at already: the room, the point, and to which side.
     looked: HashSet<(RoomIndex, u64, u64, u8)>,
+    /// Where the states end that lie between those of a change, from a room; found when first asked for.
+    ends_of_sequences: HashMap<(DoorIndex, RoomIndex), Rc<[Segment]>>,
     /// How many ways to a goal were found that stop at the same doors.
     alike: HashMap<(usize, Vec<DoorIndex>), usize>,
     outcome: Outcome,
@@ -202,6 +205,7 @@ impl<'g> Search<'g> {
             offered: vec![Vec::new(); rooms],
             bent: vec![f64::INFINITY; turning.bends.len()],
             looked: HashSet::new(),
+            ends_of_sequences: HashMap::new(),
             alike: HashMap::new(),
             outcome,
             freely,

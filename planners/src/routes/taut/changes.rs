@@ -1,5 +1,7 @@
 //! Changes of shape: where the search makes them to go on, and where it ends with one.
 
+use std::rc::Rc;
+
 use super::super::cone::Segment;
 use super::super::mesh::Exit;
 use super::super::parts::{Goal, RoomIndex};
@@ -64,8 +66,11 @@ impl Search<'_> {
             return;
         }
         if is_in_steps {
-            for end in graph.ends_of_sequences(door, node.room, room) {
-                if let Some(seen) = node.view.of_gate(node.root, end) {
+            let ends = self.ends_of_sequences.entry((door, node.room));
+            let ends =
+                Rc::clone(ends.or_insert_with(|| graph.ends_of_sequences(door, node.room, room).into()));
+            for end in ends.iter() {
+                if let Some(seen) = node.view.of_gate(node.root, *end) {
                     for p in self.points(room, seen, node.root) {
                         reach(self, p);
                     }
