@@ -213,6 +213,8 @@ impl Tell {
             let message = format!("{class}.{} holds {wanted}, and `{text}` is none", self.property);
             Error::said(Code::TellType, message, None)
         };
+        // of what routes weigh alone: elsewhere a class may mean what it likes by the word
+        let weighs = self.property == "hardness" && ["ROOMS", "DOORS"].contains(&class);
         let as_truth = |truth: bool| ("truth", Cell::Integer(truth.into()));
         let as_number = |number: f64| ("number", Cell::Real(number));
         match kind {
@@ -220,7 +222,7 @@ impl Tell {
                 .or_else(|| found.filter(|found| [0.0, 1.0].contains(found)).map(|found| found != 0.0))
                 .map(as_truth)
                 .ok_or_else(|| wrong("truth values (true or false)")),
-            Some(Type::Number) if self.property == "hardness" && found.is_some_and(|found| found < 0.0) => {
+            Some(Type::Number) if weighs && found.is_some_and(|found| found < 0.0) => {
                 Err(wrong("numbers that are not negative"))
             }
             Some(Type::Number) => found.map(as_number).ok_or_else(|| wrong("numbers")),
