@@ -3,7 +3,7 @@
 mod coverage;
 mod members;
 
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 
 use crate::facts::{Column, Facts, Table};
 use crate::planner::{Planner, PlannerError, Signature};
@@ -42,10 +42,17 @@ pub fn own(class: &str) -> impl Iterator<Item = &'static str> {
     OWN.iter().filter(move |own| own.0 == class).map(|own| own.1)
 }
 
-/// Properties, by class, that a site alone gives its named areas and doors.
-pub fn only_of_site(world: &World) -> BTreeSet<(&'static str, &str)> {
-    let said = further(world).map(|(class, (property, _))| (class, property.as_str()));
-    said.filter(|(class, property)| own_kind(class, property).is_none()).collect()
+/// Properties, by class, that a site alone gives its named areas and doors, with the names of those that have them.
+pub fn only_of_site(world: &World) -> BTreeMap<(&'static str, &str), Vec<&str>> {
+    let areas = world.areas.iter().map(|area| (AREAS, &area.name, &area.further));
+    let doors = world.named_doors.iter().map(|door| (NAMED_DOORS, &door.name, &door.further));
+    let mut found: BTreeMap<(&'static str, &str), Vec<&str>> = BTreeMap::new();
+    for (class, name, further) in areas.chain(doors) {
+        for (property, _) in further.iter().filter(|(property, _)| own_kind(class, property).is_none()) {
+            found.entry((class, property)).or_default().push(name);
+        }
+    }
+    found
 }
 
 /// Zones of VDA 5050 that an area may say that it is; the two others are said otherwise.

@@ -116,15 +116,20 @@ pub fn unheard(rules: &RuleBase, world: &World) -> Vec<String> {
 pub fn unread_of_named(rules: &RuleBase, world: &World) -> Vec<String> {
     let read: BTreeSet<String> =
         rules.rules().iter().flat_map(Rule::reads).map(ToString::to_string).collect();
-    let is_unread = |(class, property): &(&str, &str)| !read.contains(&format!("{class}.{property}"));
-    let sentence = |(class, property): (&str, &str)| {
+    let is_unread =
+        |((class, property), _): &((&str, &str), Vec<&str>)| !read.contains(&format!("{class}.{property}"));
+    let sentence = |((class, property), names): ((&str, &str), Vec<&str>)| {
         let mut known: Vec<&str> = own(class).chain(["rect", "polygon", "line", "kind", "name"]).collect();
         let of_class = read.iter().filter_map(|name| name.split_once('.')).filter(|(of, _)| *of == class);
         known.extend(of_class.map(|(_, property)| property));
         let help = did_you_mean(property, known.into_iter());
         let help = help.map_or_else(String::new, |help| format!(" ({help})"));
         let whose = if class == AREAS { "area" } else { "door" };
-        format!("no rule reads the property `{property}` of a named {whose}: it changes nothing{help}")
+        let more = match names.len() {
+            1 => String::new(),
+            count => format!(" and {} more", count - 1),
+        };
+        format!("no rule reads `{property}` of the {whose} `{}`{more}: it changes nothing{help}", names[0])
     };
     only_of_site(world).into_iter().filter(is_unread).map(sentence).collect()
 }

@@ -44,8 +44,7 @@ fn a_misspelt_property_of_an_area_is_named() {
         "map.toml",
         format!("{map}\n[[area]]\nname = \"puddle\"\nrect = [2, 2, 3, 3]\nhardnes_factor = 3\n"),
     );
-    let note =
-        ["no rule reads the property `hardnes_factor` of a named area", "did you mean `hardness_factor`?"];
+    let note = ["no rule reads `hardnes_factor` of the area `puddle`", "did you mean `hardness_factor`?"];
     site.adit("build", &[]).expecting(0).complains(&note);
 }
 
