@@ -55,8 +55,10 @@ pub struct Shared {
     pub turns: Arc<Places>,
     /// Places of long bodies that are read.
     pub bodies: Arc<Places>,
-    /// Places of what takes long: previews, questions in SQL.
+    /// Places of what takes long: previews, reasons.
     long: Arc<Places>,
+    /// Places of questions in SQL, which need not wait until their caller's reasons are found.
+    questions: Arc<Places>,
     /// The place at the desk: callers come there one after the other.
     at_desk: Arc<Places>,
     /// Places of routes that are found anew for whoever follows them.
@@ -88,8 +90,8 @@ pub struct Seen {
     pub notes: Vec<String>,
 }
 
-/// Previews, questions in SQL and the like that one caller has worked on at once, and no more than there are cores. Each may
-/// take a core, and memory; more wait.
+/// Previews, reasons and the like that one caller has worked on at once, and no more than there are cores; of questions in SQL
+/// as many besides. Each may take a core, and memory; more wait.
 const LONG: usize = 4;
 
 /// Bodies beyond [`SHORT`] that are held at once, and those of one caller; more are not read yet.
@@ -113,6 +115,7 @@ impl Shared {
         let cores = thread::available_parallelism().map_or(1, NonZero::get);
         let places = |(all, each): (usize, usize)| Places::new(all, each);
         let stock = |(all, each): (usize, usize)| Stock::new(all, each);
+        let long = || places((cores.min(LONG) + 1, cores.min(LONG)));
         // a quarter is left for others, of few nothing
         let most = |all: usize| (all, all - all / 4);
         Self {
@@ -130,7 +133,8 @@ impl Shared {
             // one more than there are cores: whoever comes while another takes them all begins at once
             turns: places((cores + 1, cores)),
             bodies: places(BODIES),
-            long: places((cores.min(LONG) + 1, cores.min(LONG))),
+            long: long(),
+            questions: long(),
             at_desk: places((1, 1)),
             renewals: places((cores + 1, cores)),
             followers: Followers::default(),
@@ -214,7 +218,7 @@ impl Shared {
         asker: &Arc<Asker>,
         work: impl FnOnce(&mut Store) -> Result<T> + Send + 'static,
     ) -> Answered<T> {
-        let (shared, place) = (Arc::clone(self), self.long.take(asker).await);
+        let (shared, place) = (Arc::clone(self), self.questions.take(asker).await);
         after_others(place, move || shared.readers.with(work)).await
     }
 

@@ -43,6 +43,26 @@ fn a_crowd_of_slow_questions_of_one_caller_holds_up_nobody_else() {
     }
 }
 
+/// Once, a question in SQL on the page waited until all reasons that the same page had asked for were found.
+#[test]
+fn a_question_in_sql_waits_for_no_reasons_of_its_own_caller() {
+    let site = TestSite::example("clinic").built();
+    let service = Service::start_with(&site, &["--listen", "127.0.0.1:0"]);
+    let ask_how_firm = || {
+        let mut stream = TcpStream::connect(&service.address).unwrap();
+        let way = "/api/firm?start=dock&goal=ward%2012";
+        write!(stream, "GET {way} HTTP/1.1\r\nHost: {}\r\nConnection: close\r\n\r\n", service.address)
+            .unwrap();
+        stream.set_nonblocking(true).unwrap();
+        stream
+    };
+    let reasons: Vec<TcpStream> = (0..12).map(|_| ask_how_firm()).collect();
+    thread::sleep(Duration::from_millis(500));
+    assert_eq!(service.ask("POST", "/api/sql", Some(&json!({"query": "SELECT 1"}))).0, 200);
+    let found = reasons.iter().filter(|reason| reason.peek(&mut [0]).is_ok()).count();
+    assert!(found < 8, "{found} of 12 were found before");
+}
+
 /// Once, a crowd's maps and reasons took the cores from robots' questions: these were answered 21 times as late.
 #[test]
 #[cfg(target_os = "linux")]
