@@ -165,6 +165,8 @@ struct Otherwise {
 
 /// A state before edits.
 struct Before {
+    /// When it was begun to try them.
+    began: Instant,
     graph: Arc<SiteGraph>,
     known: Arc<Known>,
     gauge: Arc<Gauge>,
@@ -175,6 +177,7 @@ struct Before {
 impl Before {
     fn of(state: &State, route: Option<Wanted<'_>>) -> Result<Self> {
         Ok(Self {
+            began: Instant::now(),
             graph: Arc::clone(state.graph()),
             known: Arc::clone(&state.known),
             gauge: Arc::clone(&state.gauge),
@@ -191,7 +194,7 @@ impl Before {
         route: Option<Wanted<'_>>,
         said: Otherwise,
     ) -> Result<Preview> {
-        let Self { graph: before, known, gauge, courses, route: before_route } = self;
+        let Self { began, graph: before, known, gauge, courses, route: before_route } = self;
         let (layout_changed, weighed) = (step.is_cut_anew, step.weighed.clone());
         state.accept(step);
         state.go_on()?;
@@ -203,8 +206,11 @@ impl Before {
             PlaceRoutes::none(robots.len(), before.places.len())
         } else {
             let (before, after) = ((&*before, &*gauge), (&*after, &*state.gauge));
+            // who has waited long for a floor to be cut is not sent away to ask for the same once more
+            let patience =
+                if state.patience.is_zero() { state.patience } else { state.patience.max(began.elapsed()) };
             let began = Instant::now();
-            let is_time = |share| began.elapsed() < state.patience / share && state.is_waited_for();
+            let is_time = |share| began.elapsed() < patience / share && state.is_waited_for();
             routes::compare((before, &known), after, &robots, layout_changed, &is_time)
         };
         let Otherwise { cells, conclusions, rules } = said;

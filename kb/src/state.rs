@@ -152,7 +152,8 @@ impl State {
         if self.is_waited_for() { Ok(()) } else { Err(Error::said(Code::ServiceLate, message, None)) }
     }
 
-    /// Looks for routes between places for so long in a preview; what is not found by then is not compared.
+    /// Looks for routes between places for so long in a preview, or for as long as all before that took; what is not found by
+    /// then is not compared. With none, none is.
     #[must_use]
     pub fn with_patience(mut self, patience: Duration) -> Self {
         self.patience = patience;

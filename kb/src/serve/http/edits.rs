@@ -417,7 +417,8 @@ pub struct PreviewBody {
     /// Metres by which a start or goal at which no state fits may be moved, to the nearest point at which one does.
     #[serde(default)]
     within: Option<f64>,
-    /// Milliseconds in which routes between places are compared, at most 10,000; what is not compared by then is said.
+    /// Milliseconds in which routes between places are compared, at most 10,000, or as long as all before that took, where that
+    /// is longer; what is not compared by then is said. With 0 none are.
     #[serde(default)]
     patience_ms: Option<u64>,
 }
