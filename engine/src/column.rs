@@ -108,12 +108,7 @@ impl Column {
         true
     }
 
-    /// Whether both hold the same values, to the bit.
-    pub(crate) fn same(&self, other: &Self) -> bool {
-        self.len() == other.len() && self.kind() == other.kind() && self.differing(other).is_empty()
-    }
-
-    /// The rows in which two columns of one length and type differ, ascending.
+    /// The rows in which two columns of one type differ, as far as both go, ascending.
     pub(crate) fn differing(&self, other: &Self) -> Vec<u32> {
         fn rows<T: Copy>(a: &[T], b: &[T], same: impl Fn(T, T) -> bool) -> Vec<u32> {
             let pairs = a.iter().zip(b).zip(0..);

@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 
+use super::dirty::Dirty;
 use super::pending::Pending;
 use crate::class::Table;
 use crate::column::Column;
@@ -12,13 +13,19 @@ pub(super) fn difference(old: &Table, new: &Table) -> Pending {
         return Pending::anew();
     }
     let mut pending = Pending::default();
-    let same_keys = old.len == new.len && old.key.iter().all(|&at| old.columns[at].same(&new.columns[at]));
-    if same_keys {
+    // as far as both go: objects that are numbered, or have no key, come and go at the end
+    let are_first_alike = old.key.iter().all(|&at| old.columns[at].differing(&new.columns[at]).is_empty());
+    if are_first_alike {
         for (name, (before, now)) in new.names.iter().zip(old.columns.iter().zip(&new.columns)) {
-            for row in before.differing(now) {
-                pending.change(name, row);
+            let rows = before.differing(now);
+            if !rows.is_empty() {
+                pending.changed.insert(name.clone(), Dirty::Rows(rows));
             }
         }
+        let (before, now) = (old.len as u32, new.len as u32);
+        pending.added = (before..now).collect();
+        pending.moved =
+            (before > now).then(|| (0..before).map(|row| Some(row).filter(|row| *row < now)).collect());
         return pending;
     }
     let moved = places(old, new);
@@ -40,11 +47,8 @@ pub(super) fn difference(old: &Table, new: &Table) -> Pending {
     pending
 }
 
-/// For each old row its new one, by key; by place where the class has no key.
+/// For each old row its new one, by key.
 fn places(old: &Table, new: &Table) -> Vec<Option<u32>> {
-    if new.key.is_empty() {
-        return (0..old.len as u32).map(|row| Some(row).filter(|&row| (row as usize) < new.len)).collect();
-    }
     let by_key: HashMap<Vec<u64>, u32> =
         (0..new.len).filter_map(|row| Some((new.key_bits(row)?, row as u32))).collect();
     (0..old.len).map(|row| by_key.get(&old.key_bits(row)?).copied()).collect()

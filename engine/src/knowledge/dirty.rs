@@ -9,6 +9,9 @@ pub(crate) enum Dirty {
     All,
 }
 
+/// One row in so many is many.
+const MANY: usize = 16;
+
 impl Dirty {
     pub(crate) const fn is_none(&self) -> bool {
         matches!(self, Self::None)
@@ -39,8 +42,17 @@ impl Dirty {
     pub(crate) fn settle(mut self, len: usize) -> Self {
         if let Self::Rows(rows) = &mut self {
             if !rows.is_sorted_by(|a, b| a < b) {
-                rows.sort_unstable();
-                rows.dedup();
+                // of most rows it is sooner looked at each than sorted
+                if rows.len() > len / MANY && rows.iter().all(|&row| (row as usize) < len) {
+                    let mut is_in = vec![false; len];
+                    for &row in rows.iter() {
+                        is_in[row as usize] = true;
+                    }
+                    *rows = (0..).zip(is_in).filter_map(|(row, is_in)| is_in.then_some(row)).collect();
+                } else {
+                    rows.sort_unstable();
+                    rows.dedup();
+                }
             }
             if rows.is_empty() {
                 return Self::None;

@@ -15,12 +15,16 @@ const BESIDE_M: f64 = 0.5;
 
 /// The spaces of a building, found by points.
 pub(crate) struct Located {
-    numbers: Vec<f64>,
-    /// The sides of all outlines, each with the place of its space.
-    sides: Vec<(usize, Segment)>,
+    spaces: Vec<Outlined>,
+    /// The least rectangles about the spaces.
     index: RectIndex,
-    /// No outline reaches farther to the right.
-    right: f64,
+}
+
+struct Outlined {
+    number: f64,
+    sides: Vec<Segment>,
+    index: RectIndex,
+    bounds: Rect,
 }
 
 impl Located {
@@ -33,43 +37,58 @@ impl Located {
     }
 
     fn of(known: &Facts) -> Result<Self, String> {
-        let (mut numbers, mut sides) = (Vec::new(), Vec::new());
+        let mut spaces = Vec::new();
         if let Some(table) = known.get(CLASS) {
             for (number, outline) in table.numbers("space")?.iter().zip(table.texts("outline")?) {
                 let (Some(number), Some(outline)) = (number, outline) else { continue };
                 let rings: Vec<Vec<[f64; 2]>> = serde_json::from_str(outline)
                     .map_err(|error| format!("the outline of space {number} is no list of rings: {error}"))?;
+                let mut sides = Vec::new();
                 for ring in rings {
                     let ring: Vec<Point> = ring.into_iter().map(|[x, y]| Point::new(x, y)).collect();
-                    sides.extend(polygon::sides(&ring).map(|side| (numbers.len(), side)));
+                    sides.extend(polygon::sides(&ring));
                 }
-                numbers.push(*number);
+                if !sides.is_empty() {
+                    spaces.push(Outlined::new(*number, sides));
+                }
             }
         }
-        let bounds: Vec<Rect> = sides.iter().map(|(_, side)| side.bounds()).collect();
-        let right = bounds.iter().map(|bounds| bounds.x1).fold(f64::NEG_INFINITY, f64::max);
-        Ok(Self { numbers, sides, index: RectIndex::new(bounds), right })
+        let index = RectIndex::new(spaces.iter().map(|space| space.bounds));
+        Ok(Self { spaces, index })
     }
 
     /// The number of the space that a point lies in, or else of the nearest one that it lies beside.
     pub fn at(&self, p: Point) -> Option<f64> {
-        let meeting = |rect: Rect| self.index.meeting(rect).map(|side| self.sides[side]);
-        // what encloses it has sides to its right
-        let mut beyond: Vec<(usize, Segment)> =
-            meeting(Rect::new(p.x, p.y, self.right.max(p.x), p.y)).collect();
-        beyond.sort_by_key(|(space, _)| *space);
-        let mut of_spaces = beyond.chunk_by(|one, other| one.0 == other.0);
-        let within = of_spaces
-            .find(|sides| polygon::encloses(sides.iter().map(|(_, side)| *side), p))
-            .map(|sides| sides[0].0);
+        let within = self.index.at(p).into_iter().find(|&space| self.spaces[space].holds(p));
         let space = within.or_else(|| {
-            let off =
-                meeting(Rect::around([p]).grown(BESIDE_M)).map(|(space, side)| (side.distance(p), space));
-            let near = off.filter(|(off, _)| *off <= BESIDE_M);
-            near.min_by(|one, other| one.0.total_cmp(&other.0).then(one.1.cmp(&other.1)))
+            let about = Rect::around([p]).grown(BESIDE_M);
+            let near = self.index.meeting(about).map(|space| (self.spaces[space].metres(p, about), space));
+            near.filter(|(off, _)| *off <= BESIDE_M)
+                .min_by(|one, other| one.0.total_cmp(&other.0).then(one.1.cmp(&other.1)))
                 .map(|(_, space)| space)
         })?;
-        Some(self.numbers[space])
+        Some(self.spaces[space].number)
+    }
+}
+
+impl Outlined {
+    fn new(number: f64, sides: Vec<Segment>) -> Self {
+        let bounds = Rect::around(sides.iter().map(|side| side.a));
+        Self { number, index: RectIndex::new(sides.iter().map(Segment::bounds)), bounds, sides }
+    }
+
+    fn meeting(&self, rect: Rect) -> impl Iterator<Item = Segment> {
+        self.index.meeting(rect).map(|side| self.sides[side])
+    }
+
+    /// Whether a point lies inside: then the outline has sides to its right.
+    fn holds(&self, p: Point) -> bool {
+        polygon::encloses(self.meeting(Rect::new(p.x, p.y, self.bounds.x1.max(p.x), p.y)), p)
+    }
+
+    /// Metres from a point to the outline, as far as it lies within a rectangle.
+    fn metres(&self, p: Point, within: Rect) -> f64 {
+        self.meeting(within).map(|side| side.distance(p)).fold(f64::INFINITY, f64::min)
     }
 }
 
