@@ -69,7 +69,7 @@ macro_rules! column {
 pub(crate) use column;
 
 /// A row of a table whose columns stand in one list: the key first, what planners give, what rules say.
-pub trait Row: Default + Clone + 'static {
+pub trait Row: Default + Clone + Send + Sync + 'static {
     const TABLE: &'static str;
     const COLUMNS: &'static [Column<Self>];
     /// The names of all columns.

@@ -93,10 +93,12 @@ impl SiteGraph {
         building: Arc<Building>,
     ) -> Self {
         let mut route_rooms = Vec::with_capacity(rooms.len());
+        let outlines: Vec<_> = rooms.par_iter().map(outline_of).collect();
+        let mut outlines = outlines.into_iter();
         // a room whose outline somebody else spoilt is none until it is built again
         rooms.retain(|room| {
-            let outline = outline_of(room);
-            let is_kept = outline.is_ok();
+            let outline = outlines.next().and_then(Result::ok);
+            let is_kept = outline.is_some();
             route_rooms.extend(outline.map(|outline| RouteRoom {
                 outline,
                 radius: room.radius,

@@ -11,8 +11,10 @@ mod dents;
 mod footprint;
 mod free_space;
 mod gap;
+mod ground;
 mod grown;
 mod headroom;
+mod known;
 mod labels;
 mod lattice;
 mod layer;
@@ -37,8 +39,8 @@ use crate::world::World;
 pub(crate) use footprint::{STEP_DEGREES, body};
 pub(crate) use free_space::Solid;
 pub use headroom::{Headroom, headroom};
+pub use known::KnownLayers;
 pub use lattice::{Lattice, MAX_CELLS};
-pub use layer::KnownLayers;
 pub use narrowest::{Narrowest, narrowest};
 pub use planner::RoomsByState;
 pub use record::{Crossing, Kind, Room, State};
@@ -118,7 +120,7 @@ pub fn cut_layers_anew(
     }
     check_passages(states, &stack)?;
     let mut crossings: Vec<Crossing> = stack.iter().flat_map(doors).collect();
-    crossings.extend(changes(states, &stack));
+    crossings.extend(changes(states, &stack, known)?);
     crossings.sort_unstable_by_key(|crossing| (crossing.room1, crossing.room2));
     let members = |of: fn(&Label) -> &[usize]| {
         let labels = stack.iter().flat_map(|placed| &placed.layer.labels).enumerate();
@@ -197,6 +199,6 @@ fn doors(placed: &Placed) -> impl Iterator<Item = Crossing> + '_ {
     let first = placed.first;
     placed.layer.beside.iter().map(move |&(a, b, across)| {
         let (room1, room2) = (first + a as usize, first + b as usize);
-        Crossing { kind: Kind::Door, room1, room2, across }
+        Crossing { kind: Kind::Door, room1, room2, across, at: across.middle(), width: across.length() }
     })
 }

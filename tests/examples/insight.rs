@@ -62,6 +62,17 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     }
     let first = times[0];
     println!("preview: first {first:.1?}, then median {:.1?}; {changed} changed", median(&mut times));
+    let widen = |metres: f64| {
+        let [table, key, column] = ["robots", state, "width"].map(str::to_owned);
+        Edit::Set(table, key, column, metres.to_string())
+    };
+    let mut times = Vec::new();
+    for round in 0..3 {
+        let began = Instant::now();
+        live.preview(&[widen(0.7 + f64::from(round) / 100.0)], Some(wanted))?;
+        times.push(began.elapsed());
+    }
+    println!("preview of a width: median {:.1?}", median(&mut times));
     let mut times: Vec<Duration> = (0..11)
         .map(|_| {
             let began = Instant::now();

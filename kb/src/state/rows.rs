@@ -11,6 +11,7 @@ use adit_db::schema::{Column, Kind, Part, Row, Value};
 use adit_engine::Class;
 use adit_planners::facts::{self, Table};
 use adit_planners::world::World;
+use rayon::prelude::*;
 
 use crate::error::{Code, Error, Result};
 use crate::graph::{Building, outline_of};
@@ -92,37 +93,53 @@ pub fn rooms(table: &Table) -> Result<Vec<Room>> {
         }
     }
     let rooms: Vec<Room> = of_table("ROOMS", &table)?;
-    for (row, room) in rooms.iter().enumerate() {
-        let wrong = |what| {
-            Error::said(
-                Code::FactsProperty,
-                format!("class ROOMS: `outline` of object {} {what}", row + 1),
-                None,
-            )
-        };
-        outline_of(room).map_err(wrong)?;
+    let wrong = |(row, room): (usize, &Room)| Some((row, outline_of(room).err()?));
+    match rooms.par_iter().enumerate().find_map_first(wrong) {
+        None => Ok(rooms),
+        Some((row, what)) => {
+            let message = format!("class ROOMS: `outline` of object {} {what}", row + 1);
+            Err(Error::said(Code::FactsProperty, message, None))
+        }
     }
-    Ok(rooms)
 }
 
 /// Rooms or doors as rows, without what rules say.
 pub fn of_table<R: Row>(class: &'static str, table: &Table) -> Result<Vec<R>> {
-    let columns = Columns { class, table };
     let mut rows = vec![R::default(); table.len()];
+    let (first, rest) = rows.split_at_mut(CHUNK.min(table.len()));
+    let part = |(number, rows): (usize, &mut [R])| fill(class, table, (number + 1) * CHUNK, rows);
+    let (first, rest) = rayon::join(
+        || fill(class, table, 0, first),
+        || rest.par_chunks_mut(CHUNK).enumerate().map(part).collect::<Vec<_>>(),
+    );
+    first?;
+    rest.into_iter().collect::<Result<()>>()?;
+    Ok(rows)
+}
+
+/// So many rows are made one after the other, beside others.
+const CHUNK: usize = 8_192;
+
+/// Puts what stands in a table from a row on into rows.
+fn fill<R: Row>(class: &'static str, table: &Table, from: usize, rows: &mut [R]) -> Result<()> {
+    let columns = Columns { class, table };
+    let to = from + rows.len();
     for column in R::columns_of(Part::Cut) {
         let is_whole = column.kind == Kind::Integer;
         let number = |number| if is_whole { Value::Integer(number as i64) } else { Value::Real(number) };
         let property = column.name;
         match column.kind {
-            Kind::Integer | Kind::Real => put(&mut rows, column, columns.numbers(property)?, |v| number(*v)),
-            Kind::Text => put(&mut rows, column, columns.texts(property)?, |v| Value::Text(v)),
-            Kind::Truth => put(&mut rows, column, columns.truths(property)?, |v| Value::Truth(*v)),
+            Kind::Integer | Kind::Real => {
+                put(rows, column, &columns.numbers(property)?[from..to], |v| number(*v))
+            }
+            Kind::Text => put(rows, column, &columns.texts(property)?[from..to], |v| Value::Text(v)),
+            Kind::Truth => put(rows, column, &columns.truths(property)?[from..to], |v| Value::Truth(*v)),
         }
         .map_err(|row| {
-            columns.missing(&format!("object {row} has no `{property}`, or one that cannot be"))
+            columns.missing(&format!("object {} has no `{property}`, or one that cannot be", from + row))
         })?;
     }
-    Ok(rows)
+    Ok(())
 }
 
 /// Puts values into a column of rows; an error is the number of the row, from 1, that cannot take its value.

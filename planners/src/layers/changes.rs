@@ -1,14 +1,19 @@
 //! Changes of shape and turns: ways between rooms of two layers that lie over each other.
 
-use std::collections::BTreeMap;
+//!
+//! This file and [`known`](super::known) import each other in a circle: what is found here is kept there, by the pair of
+//! layers that it is asked about.
 
-use rayon::prelude::*;
+use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use super::footprint::FACINGS;
+use super::known::{KnownLayers, Pair};
 use super::layer::{Layer, Placed, Places};
 use super::record::{Crossing, Kind, State};
 use crate::geometry::tolerance::SNAP_M;
 use crate::geometry::{Convex, Point, Rect, Segment};
+use crate::rooms::outline::shared;
 
 /// An overlap not thicker than this is left out beside a thicker one, metres.
 const THIN_M: f64 = 0.1;
@@ -16,12 +21,46 @@ const THIN_M: f64 = 0.1;
 /// A rectangle for turning is found to within this share of its size.
 const FITTED: f64 = 1e-3;
 
-/// All changes of shape and turns between layers.
-pub(super) fn changes(states: &[State], stack: &[Placed]) -> Vec<Crossing> {
+/// A change between two rooms of two layers, by their numbers there.
+pub(super) struct Change {
+    rooms: [u32; 2],
+    /// Opposite corners of the least rectangle about where it is made.
+    across: Segment,
+    /// Where the area lies in which it is made, and how wide that is: from the first room, and from the second.
+    ways: [(Point, f64); 2],
+}
+
+/// Which of two layers has the facing from which the other's is the next one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Turn {
+    FromFirst,
+    FromSecond,
+}
+
+/// All changes of shape and turns between layers. The error is one sentence.
+pub(super) fn changes(
+    states: &[State],
+    stack: &[Placed],
+    known: &KnownLayers,
+) -> Result<Vec<Crossing>, String> {
     let pairs = (0..stack.len()).flat_map(|from| (from + 1..stack.len()).map(move |to| (from, to)));
     let pairs: Vec<_> = pairs.filter(|&(from, to)| may_change(states, &stack[from], &stack[to])).collect();
-    let of_pair = |&(from, to): &(usize, usize)| changes_between(&stack[from], &stack[to]);
-    pairs.par_iter().map(of_pair).collect::<Vec<_>>().concat()
+    let of_layers = |&(from, to): &(usize, usize)| {
+        let (from, to) = (&stack[from], &stack[to]);
+        Pair { layers: [from, to].map(|placed| Arc::clone(&placed.layer)), turn: turn(from, to) }
+    };
+    let found = known.changes(&pairs.iter().map(of_layers).collect::<Vec<_>>())?;
+    let placed = |(&(from, to), changes): (&(usize, usize), &Arc<Vec<Change>>)| {
+        let first = [stack[from].first, stack[to].first];
+        changes.iter().flat_map(|change| there_and_back(first, change)).collect::<Vec<_>>()
+    };
+    Ok(pairs.iter().zip(&found).flat_map(placed).collect())
+}
+
+fn turn(from: &Placed, to: &Placed) -> Option<Turn> {
+    let (one, other) = (from.facing?, to.facing?);
+    let before = (from.state == to.state).then(|| turned_from(one, other))??;
+    Some(if before == one { Turn::FromFirst } else { Turn::FromSecond })
 }
 
 /// Whether a robot may come from one layer into the other by changing its shape, or by turning to the next facing. A
@@ -51,41 +90,52 @@ fn turned_from(a: usize, b: usize) -> Option<usize> {
 /// What rooms of two layers have in common, by their numbers.
 type Overlaps = BTreeMap<(u32, u32), Convex>;
 
-fn changes_between(from: &Placed, to: &Placed) -> Vec<Crossing> {
-    let turns = (from.state == to.state).then(|| from.facing.zip(to.facing)).flatten();
-    let turning = turns.and_then(|(a, b)| turned_from(a, b)).and_then(|facing| {
-        let first = if from.facing == Some(facing) { from } else { to };
-        first.layer.turning.as_ref()
-    });
+/// The changes between two layers.
+pub(super) fn between(pair: &Pair) -> Vec<Change> {
+    let [from, to] = &pair.layers;
+    let turning = match pair.turn {
+        Some(Turn::FromFirst) => from.ground.turning.as_ref(),
+        Some(Turn::FromSecond) => to.ground.turning.as_ref(),
+        None => None,
+    };
     let mut overlaps = Overlaps::new();
-    for (a, room) in (0..).zip(&from.layer.rooms) {
-        for (b, common) in to.layer.places.common(room) {
+    for (a, room) in (0..).zip(&from.rooms) {
+        for (b, common) in to.places.common(room) {
             // rooms are cut along the same lines: what lies in other areas is a rounding
-            let is_alike = from.layer.labels[a as usize] == to.layer.labels[b as usize];
+            let is_alike = from.labels[a as usize] == to.labels[b as usize];
             if is_alike && common.breadth() > SNAP_M {
                 overlaps.insert((a, b), common);
             }
         }
     }
+    let change = |(a, b): (u32, u32), rect: Rect| {
+        let (one, other) = (&from.rooms[a as usize], &to.rooms[b as usize]);
+        let way = |area: Convex| (area.centre(), area.breadth());
+        Change {
+            rooms: [a, b],
+            across: Segment::new(Point::new(rect.x0, rect.y0), Point::new(rect.x1, rect.y1)),
+            ways: [way(shared(one, other, rect)), way(shared(other, one, rect))],
+        }
+    };
     if let Some(turning) = turning {
         return overlaps
             .iter()
-            .filter_map(|(&pair, common)| Some((pair, largest_within(turning, common)?)))
-            .flat_map(|(pair, rect)| there_and_back((from, to), pair, rect))
+            .filter_map(|(&pair, common)| Some(change(pair, largest_within(turning, common)?)))
             .collect();
     }
-    let layers = (&*from.layer, &*to.layer);
+    let layers = (&**from, &**to);
     let is_needed =
         |pair: (u32, u32), common: &Convex| !is_thin(common) || !has_thicker_beside(&overlaps, layers, pair);
     let needed = overlaps.iter().filter(|(pair, common)| is_needed(**pair, common));
-    needed.flat_map(|(&pair, common)| there_and_back((from, to), pair, common.bounds())).collect()
+    needed.map(|(&pair, common)| change(pair, common.bounds())).collect()
 }
 
-fn there_and_back((from, to): (&Placed, &Placed), (a, b): (u32, u32), rect: Rect) -> [Crossing; 2] {
-    let (room1, room2) = (from.first + a as usize, to.first + b as usize);
-    let across = Segment::new(Point::new(rect.x0, rect.y0), Point::new(rect.x1, rect.y1));
-    let there = Crossing { kind: Kind::Change, room1, room2, across };
-    [there, Crossing { room1: room2, room2: room1, ..there }]
+fn there_and_back(first: [usize; 2], change: &Change) -> [Crossing; 2] {
+    let [room1, room2] = [0, 1].map(|end| first[end] + change.rooms[end] as usize);
+    let Change { across, ways: [there, back], .. } = *change;
+    let crossing =
+        |room1, room2, (at, width)| Crossing { kind: Kind::Change, room1, room2, across, at, width };
+    [crossing(room1, room2, there), crossing(room2, room1, back)]
 }
 
 fn is_thin(overlap: &Convex) -> bool {

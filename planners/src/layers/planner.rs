@@ -61,6 +61,8 @@ impl Planner for RoomsByState {
         let door = |crossing: &Crossing| DoorRow {
             rooms: [crossing.room1, crossing.room2],
             across: crossing.across,
+            at: crossing.at,
+            width: crossing.width,
             is_change: crossing.kind == Kind::Change,
         };
         let rooms: Vec<RoomRow> = layers.rooms.iter().map(room).collect();

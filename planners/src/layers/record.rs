@@ -1,6 +1,6 @@
 //! States, rooms, and the crossings from room to room.
 
-use crate::geometry::{Convex, Segment};
+use crate::geometry::{Convex, Point, Segment};
 
 /// A state in which a robot can move.
 #[derive(Clone, Debug, PartialEq)]
@@ -51,4 +51,8 @@ pub struct Crossing {
     /// The common boundary of a door; of a change opposite corners of the least rectangle about what both rooms have in
     /// common, of a turn of a rectangle in which the body can turn.
     pub across: Segment,
+    /// Where it is on the map: the middle of a door, the centre of the area in which a shape is changed.
+    pub at: Point,
+    /// How wide that is, metres.
+    pub width: f64,
 }

@@ -70,31 +70,19 @@ pub(crate) struct DoorRow {
     /// Where it is passed; of a change of shape opposite corners of the least rectangle about what the outlines of its
     /// rooms have in common, or about the part of that in which it is made.
     pub across: Segment,
+    /// Where it is on the map.
+    pub at: Point,
+    /// How wide it is, metres.
+    pub width: f64,
     /// Whether it is a change of shape, one way.
     pub is_change: bool,
 }
 
 impl DoorRow {
-    /// From a rectangle without extent along one axis, or that of a change.
-    pub(crate) fn along(rooms: [usize; 2], rect: Rect, is_change: bool) -> Self {
+    /// From a rectangle without extent along one axis.
+    fn along(rooms: [usize; 2], rect: Rect) -> Self {
         let across = Segment::new(Point::new(rect.x0, rect.y0), Point::new(rect.x1, rect.y1));
-        Self { rooms, across, is_change }
-    }
-
-    /// The area in which a shape is changed.
-    fn area(&self, rooms: &[RoomRow]) -> Convex {
-        let [one, other] = self.rooms.map(|room| &rooms[room].outline);
-        outline::shared(one, other, self.across.bounds())
-    }
-
-    /// Where it is on the map, and how wide.
-    fn extent(&self, rooms: &[RoomRow]) -> (Point, f64) {
-        if self.is_change {
-            let area = self.area(rooms);
-            (area.centre(), area.breadth())
-        } else {
-            (self.across.middle(), self.across.length())
-        }
+        Self { rooms, across, at: across.middle(), width: across.length(), is_change: false }
     }
 }
 
@@ -102,7 +90,8 @@ impl DoorRow {
 /// centre lies in.
 pub(crate) fn facts(rooms: &[RoomRow], doors: &[DoorRow], spaces: &Located) -> Facts {
     let space = |room: &RoomRow| spaces.at(room.outline.centre());
-    let table = room_table(rooms).with("space", rooms.iter().map(space).collect::<Column>());
+    let of_spaces: Vec<Option<f64>> = rooms.par_iter().map(space).collect();
+    let table = room_table(rooms).with("space", Column::Number(of_spaces));
     Facts::from([("ROOMS".to_owned(), table), ("DOORS".to_owned(), door_table(rooms, doors))])
 }
 
@@ -110,7 +99,7 @@ pub(crate) fn facts(rooms: &[RoomRow], doors: &[DoorRow], spaces: &Located) -> F
 pub(crate) fn room_facts(rooms: &[Room], spaces: &Located) -> Facts {
     let rects: Vec<_> = rooms.iter().map(|room| room.rect).collect();
     let edges = shared_edges(&rects).into_iter();
-    let door = |edge: SharedEdge| DoorRow::along([edge.first, edge.second], edge.segment, false);
+    let door = |edge: SharedEdge| DoorRow::along([edge.first, edge.second], edge.segment);
     let row = |room: &Room| RoomRow {
         robot: None,
         state: None,
@@ -125,6 +114,7 @@ pub(crate) fn room_facts(rooms: &[Room], spaces: &Located) -> Facts {
 
 fn room_table(rooms: &[RoomRow]) -> Table {
     let rects: Vec<_> = rooms.iter().map(|room| room.outline.bounds()).collect();
+    let outlines: Vec<Option<String>> = rooms.par_iter().map(|room| outline::write(&room.outline)).collect();
     let table = Table::default()
         .with("room", keys(rooms.len()))
         .with("name", (0..rooms.len()).map(room_name).collect::<Column>())
@@ -132,7 +122,7 @@ fn room_table(rooms: &[RoomRow]) -> Table {
         .with("state", rooms.iter().map(|room| room.state.clone()).collect::<Column>())
         .with("facing", rooms.iter().map(|room| room.facing).collect::<Column>());
     with_edges(table, &rects)
-        .with("outline", rooms.iter().map(|room| outline::write(&room.outline)).collect::<Column>())
+        .with("outline", Column::Text(outlines))
         .with("radius", rooms.iter().map(|room| room.radius).collect::<Column>())
         .with("berth", rooms.iter().map(|room| Some(room.berth?.metres)).collect::<Column>())
         .with("berth_cost", rooms.iter().map(|room| Some(room.berth?.share)).collect::<Column>())
@@ -143,15 +133,14 @@ fn room_table(rooms: &[RoomRow]) -> Table {
 fn door_table(rooms: &[RoomRow], doors: &[DoorRow]) -> Table {
     let column = |of: &dyn Fn(&DoorRow) -> f64| doors.iter().map(of).collect::<Column>();
     let kind = |door: &DoorRow| if door.is_change { "change" } else { "door" }.to_owned();
-    let extents: Vec<(Point, f64)> = doors.par_iter().map(|door| door.extent(rooms)).collect();
     let mut table = Table::default()
         .with("door", keys(doors.len()))
         .with("kind", doors.iter().map(kind).collect::<Column>())
         .with("room1", column(&|door| (door.rooms[0] + 1) as f64))
         .with("room2", column(&|door| (door.rooms[1] + 1) as f64))
-        .with("x", extents.iter().map(|(at, _)| at.x).collect::<Column>())
-        .with("y", extents.iter().map(|(at, _)| at.y).collect::<Column>())
-        .with("width", extents.iter().map(|(_, width)| *width).collect::<Column>())
+        .with("x", column(&|door| door.at.x))
+        .with("y", column(&|door| door.at.y))
+        .with("width", column(&|door| door.width))
         .with("x0", column(&|door| door.across.a.x))
         .with("y0", column(&|door| door.across.a.y))
         .with("x1", column(&|door| door.across.b.x))
@@ -161,11 +150,10 @@ fn door_table(rooms: &[RoomRow], doors: &[DoorRow]) -> Table {
     for (side, names) in
         [["height1", "width1", "distance1"], ["height2", "width2", "distance2"]].into_iter().enumerate()
     {
-        let distance = |(door, (at, _)): (&DoorRow, &(Point, f64))| centres[door.rooms[side]].distance(*at);
         table = table
             .with(names[0], doors.iter().map(|door| rooms[door.rooms[side]].height).collect::<Column>())
             .with(names[1], column(&|door| breadths[door.rooms[side]]))
-            .with(names[2], doors.iter().zip(&extents).map(distance).collect::<Column>());
+            .with(names[2], column(&|door| centres[door.rooms[side]].distance(door.at)));
     }
     table.with("one_way", doors.iter().map(|door| door.is_change).collect::<Column>())
 }

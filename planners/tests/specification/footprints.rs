@@ -193,7 +193,7 @@ proptest! {
                 prop_assert!(is_free(&world, &long, p, room.facing.unwrap()), "{p:?} in {room:?}");
             }
         }
-        for Crossing { kind, room1, room2, across } in &layers.crossings {
+        for Crossing { kind, room1, room2, across, .. } in &layers.crossings {
             if *kind == Kind::Change && room1 < room2 {
                 let [from, to] = [room1, room2].map(|room| layers.rooms[*room].facing.unwrap());
                 let by = if to - from > 90.0 { to - from - 180.0 } else { to - from };
