@@ -3,8 +3,8 @@
 use super::dents::without_dents;
 use super::footprint;
 use super::grown::{Moved, Rings};
-use super::layer::Places;
 use super::pieces::Pieces;
+use super::places::Places;
 use super::record::State;
 use super::walls::Walls;
 use crate::geometry::Rect;

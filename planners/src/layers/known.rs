@@ -4,9 +4,9 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use rayon::prelude::*;
 
-use super::changes::{Change, Turn, between};
 use super::ground::{Body, Ground};
 use super::layer::{Layer, Size};
+use super::overlaps::{Change, Pair, between};
 use super::walls::Walls;
 use crate::world::World;
 
@@ -38,20 +38,6 @@ struct Placeable {
 impl PartialEq for Placeable {
     fn eq(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.ground, &other.ground) && self.size == other.size
-    }
-}
-
-/// Two layers, and which way a body turns from the one into the other, where it does.
-#[derive(Clone)]
-pub(super) struct Pair {
-    pub(super) layers: [Arc<Layer>; 2],
-    pub(super) turn: Option<Turn>,
-}
-
-impl PartialEq for Pair {
-    fn eq(&self, other: &Self) -> bool {
-        let is_same = |at: usize| Arc::ptr_eq(&self.layers[at], &other.layers[at]);
-        is_same(0) && is_same(1) && self.turn == other.turn
     }
 }
 

@@ -2,7 +2,7 @@
 
 use adit_planners::geometry::{Point, Rect};
 use adit_planners::layers::{Crossing, Kind, KnownLayers, Layers, Room, State, cut_layers, cut_layers_anew};
-use adit_planners::world::{Bridge, Obstacle, Occupancy, Shape, World};
+use adit_planners::world::{Area, Bridge, Obstacle, Occupancy, Shape, World};
 use geo::{Coord, Distance, Euclidean, LineString, Polygon, Translate};
 use proptest::prelude::*;
 
@@ -181,6 +181,35 @@ fn obstacles() -> impl Strategy<Value = Vec<Shape>> {
 
 proptest! {
     #![proptest_config(ProptestConfig { cases: 12, ..ProptestConfig::default() })]
+
+    /// Where sizes, areas and walls come and go, what is taken from before is what would be cut.
+    #[test]
+    fn layers_that_are_known_are_those_that_would_be_cut(
+        shapes in obstacles(),
+        steps in prop::collection::vec((0..4_usize, 0.3..0.8f64, (0.5..4.0f64, 0.5..3.0f64)), 1..6),
+    ) {
+        let mut world = world(shapes);
+        let mut states = vec![state("WALK", 0.5, None), state("LIE", 0.3, Some(0.7)), state("SPREAD", 0.8, None)];
+        let known = KnownLayers::default();
+        for (kind, metres, (x, y)) in steps {
+            let rect = Rect::new(x, y, x + metres, y + 1.0);
+            match kind {
+                0 => states[0].width = metres,
+                1 => states[1].length = Some(metres),
+                2 => world.areas.push(Area {
+                    name: format!("area {}", world.areas.len()),
+                    kind: None,
+                    shape: Shape::Rect(rect),
+                    centre: rect.centre(),
+                    further: Vec::new(),
+                }),
+                _ => world.obstacles.push(Obstacle { shape: Shape::Rect(rect) }),
+            }
+            let whole: Vec<usize> = (0..world.areas.len()).step_by(2).collect();
+            let taken = cut_layers_anew(&world, &states, &whole, &known);
+            prop_assert_eq!(taken, cut_layers_anew(&world, &states, &whole, &KnownLayers::default()));
+        }
+    }
 
     /// The body is free at every point of a room at its facing, and at every point of a turn at every heading between.
     #[test]
