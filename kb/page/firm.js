@@ -9,21 +9,38 @@ import { keyName } from './pending.js';
 
 let wanted = false;
 let asked = '';
+let stop = null;
+let isPaused = false;
 
 /** Asks how firm the present way is, unless that is known. */
 export const askFirm = debounced(async () => {
   const { start, goal, robot } = model.ask;
-  if (model.route?.status !== 'ok') return;
+  if (isPaused || model.route?.status !== 'ok') return;
   const question = JSON.stringify([start, goal, robot, model.weights?.generation]);
   if (question === asked && model.firm) return;
   asked = question;
+  stop?.abort();
+  stop = new AbortController();
   try {
-    const answer = await get(path('/api/firm', { start, goal, robot }));
+    const answer = await get(path('/api/firm', { start, goal, robot }), { signal: stop.signal });
     if (asked === question) model.set('firm', answer);
   } catch (error) {
     if (asked === question) model.set('firm', { error, cells: [] });
   }
 }, 200);
+
+/** What takes the service long stands back while a preview is waited for. */
+export function pauseFirm() {
+  isPaused = true;
+  asked = '';
+  stop?.abort();
+}
+
+/** Goes on where it stood back: with what somebody asked for, or would have beside the cells that are edited. */
+export function resumeFirm() {
+  isPaused = false;
+  if (wanted || model.pending.size) askFirm();
+}
 
 const name = (cell) => `${keyName(cell.key)} ${cell.column.replaceAll('_', ' ')}`;
 

@@ -6,7 +6,7 @@ import { button, byId, debounced, el, fill, keep } from './dom.js';
 import { drafts, files, forget, loadFiles, overtaken, rebase } from './drafts.js';
 import { reopen } from './draw.js';
 import { cost, count, list, number, value } from './format.js';
-import { askFirm, firmWithin } from './firm.js';
+import { firmWithin, pauseFirm, resumeFirm } from './firm.js';
 import { model } from './model.js';
 import { said } from './notice.js';
 import { cells, discard, edits, keyName } from './pending.js';
@@ -36,8 +36,10 @@ const ask = debounced(async () => {
   const wanted = edits(false);
   if (!wanted.length) {
     failed = null;
+    resumeFirm();
     return model.set('preview', null);
   }
+  pauseFirm();
   stop = new AbortController();
   const asked = question();
   const { start, goal, robot } = model.ask;
@@ -48,13 +50,13 @@ const ask = debounced(async () => {
     previewed = asked;
     model.set('refusal', null);
     model.set('preview', answer);
-    // It takes the service long, and what would change comes first.
-    askFirm();
+    resumeFirm();
     // The first answer is quick; the whole comparison follows while nobody types.
     if (answer.routes?.truncated) model.set('preview', await post('/api/preview', { ...body, patience_ms: THOROUGH }, { signal: stop.signal }));
   } catch (error) {
     if (error.name === 'AbortError' || asked !== question()) return undefined;
     failed = error;
+    resumeFirm();
     model.set('preview', null);
     model.set('refusal', error);
   }

@@ -75,8 +75,19 @@ pub struct State {
     pub(crate) patience: Duration,
     /// How far ends of routes may be moved to where something fits, metres; `None`: not at all.
     pub(crate) within: Option<f64>,
-    /// Who waits for what is tried on this fork; `None`: it is tried whoever waits.
-    pub(crate) waits: Option<Weak<()>>,
+    /// Who waits for what is tried on this fork.
+    pub(crate) waits: Waits,
+}
+
+/// Who waits for an answer; by default it is found whoever waits.
+#[derive(Clone, Default)]
+pub(crate) struct Waits(Option<Weak<()>>);
+
+impl Waits {
+    /// Whether anybody waits.
+    pub(crate) fn is_anybody(&self) -> bool {
+        self.0.as_ref().is_none_or(|waits| waits.strong_count() > 0)
+    }
 }
 
 impl State {
@@ -106,7 +117,7 @@ impl State {
             tunable: Arc::default(),
             patience: PATIENCE,
             within: None,
-            waits: None,
+            waits: Waits::default(),
         }
     }
 
@@ -137,13 +148,13 @@ impl State {
     /// What is tried on it is given up once nobody holds this any more.
     #[must_use]
     pub fn waited_for_by(mut self, waits: Weak<()>) -> Self {
-        self.waits = Some(waits);
+        self.waits = Waits(Some(waits));
         self
     }
 
     /// Whether anybody waits for what is tried on it.
     pub(crate) fn is_waited_for(&self) -> bool {
-        self.waits.as_ref().is_none_or(|waits| waits.strong_count() > 0)
+        self.waits.is_anybody()
     }
 
     /// The failure of what nobody waits for.

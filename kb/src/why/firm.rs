@@ -108,6 +108,7 @@ impl State {
             found.push((&effect.lever, [below, above]));
         }
         for (lever, sides) in found {
+            prober.fork.go_on()?;
             firm.cells.push(FirmCell::new(&mut prober, &same, lever, sides)?);
         }
         firm.cells.sort_by_key(|cell| cell.below.is_none() && cell.above.is_none());

@@ -26,3 +26,15 @@ fn a_preview_is_given_up_once_its_caller_has_gone_and_its_site_is_as_it_was() {
         assert_eq!(given_up.problems()[0].code(), Some(Code::ServiceLate));
     }
 }
+
+/// How firm a route is takes half a minute on a large floor; it took a core for that long whoever had gone.
+#[test]
+fn how_firm_a_route_is_is_given_up_once_its_caller_has_gone() {
+    let site = TestSite::example("clinic").built();
+    let live = Live::open(KnowledgeBase::open(site.path()).unwrap()).unwrap();
+    let waits = Arc::new(());
+    let left_alone = live.fork().waited_for_by(Arc::downgrade(&waits));
+    drop(waits);
+    let given_up = left_alone.firm("dock", "ward 12", None).unwrap_err();
+    assert_eq!(given_up.problems()[0].code(), Some(Code::ServiceLate));
+}

@@ -11,6 +11,7 @@ use super::straight::{At, Straight, is_inside, slope};
 use super::{Contrast, End, Found, Known, Look, Path, Takeover};
 use crate::error::Result;
 use crate::site::calm::side_by_side;
+use crate::state::Waits;
 use crate::state::tunable::{Effect, LARGEST, LAST, Lever, Line, Side, Weights, lowest};
 use crate::why::probe::{Probe, Prober};
 
@@ -56,6 +57,7 @@ struct Along<'t> {
     here: Option<Look>,
     /// Ways that took over somewhere.
     rivals: Vec<Path>,
+    waits: Waits,
 }
 
 impl<'t> Turn<'t> {
@@ -66,7 +68,8 @@ impl<'t> Turn<'t> {
             here.least = here.rival.as_ref().map_or(f64::INFINITY, |(_, cost)| *cost);
         }
         let present = Arc::clone(&prober.present);
-        let along = Along { contrast, present, spent: 0, here, rivals: Vec::new() };
+        let waits = prober.fork.waits.clone();
+        let along = Along { contrast, present, spent: 0, here, rivals: Vec::new(), waits };
         Self { prober, along, is_exact: true }
     }
 
@@ -98,6 +101,7 @@ impl<'t> Turn<'t> {
                 Some((piece, along))
             };
             let found: Vec<Option<(Piece, Along)>> = side_by_side(|| some.par_iter().map(at_once).collect());
+            self.prober.fork.go_on()?;
             for (&(effect, side), found) in some.iter().zip(found) {
                 self.is_exact = true;
                 let piece = if let Some((piece, along)) = found {
@@ -251,9 +255,10 @@ impl Along<'_> {
         self.spent += 1;
     }
 
-    /// Whether enough was tried for one answer, so that it comes in time, and is the same on each machine.
+    /// Whether enough was tried for one answer, so that it comes in time, and is the same on each machine; or nobody waits
+    /// for one.
     fn is_over(&self) -> bool {
-        self.spent >= PATIENCE
+        self.spent >= PATIENCE || !self.waits.is_anybody()
     }
 
     /// Keeps a way that may take over elsewhere, too.
