@@ -116,7 +116,14 @@ impl Link {
     /// Says a line, which messages call by a word, and waits for the answer.
     pub fn ask_line(&mut self, text: &str, word: &str) -> Result<Answer, Ends> {
         self.nothing_unasked()?;
-        self.say(text).map_err(|error| self.over_with(&format!("`{word}` cannot be said to it: {error}")))?;
+        if let Err(error) = self.say(text) {
+            // who has ended neither hears nor answers: which of both is met first is chance
+            let what = match error.kind() {
+                io::ErrorKind::BrokenPipe | io::ErrorKind::ConnectionReset => unanswered(word),
+                _ => format!("`{word}` cannot be said to it: {error}"),
+            };
+            return Err(self.over_with(&what));
+        }
         let answer = match self.heard.recv_timeout(self.timeout) {
             Ok(Heard::Line(text)) => {
                 self.line = text;
@@ -128,7 +135,7 @@ impl Link {
                 return Err(Ends::Late(format!("`{word}` was not answered within {seconds} s")));
             }
             Err(RecvTimeoutError::Disconnected) => {
-                return Err(self.over_with(&format!("it ended before it answered `{word}`")));
+                return Err(self.over_with(&unanswered(word)));
             }
         };
         answer.map_err(|why| Ends::Unreadable(format!("the answer to `{word}` is no message: {why}")))
@@ -212,6 +219,10 @@ impl Drop for Link {
             }
         }
     }
+}
+
+fn unanswered(word: &str) -> String {
+    format!("it ended before it answered `{word}`")
 }
 
 /// Reads lines on a thread of its own, so that waiting for one can end.
