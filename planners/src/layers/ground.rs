@@ -59,9 +59,9 @@ impl Ground {
                 (walls.straight(&low), Some(footprint::sweep(length, body.width, clearance, facing)))
             }
         };
-        let free_of = |moved: Moved| without_dents(&moved.free_space(bounds, &solid), DENT_M);
-        let turning = sweep.map(|sweep| Pieces::of(&free_of(Moved::Body(sweep)), &[])).transpose()?;
-        let free = free_of(body.moved(clearance));
+        let free = without_dents(&body.moved(clearance).free_space(bounds, &solid), DENT_M);
+        let turning = sweep.map(|sweep| Moved::Body(sweep).free_space(bounds, &solid));
+        let turning = turning.map(|turning| Pieces::of(&turning, &[])).transpose()?;
         Ok(Self { free, turning: turning.map(|turning| Places::new(turning.pieces)) })
     }
 }
