@@ -17,7 +17,7 @@ export const askFirm = debounced(async () => {
   const { start, goal, robot } = model.ask;
   if (isPaused || model.route?.status !== 'ok') return;
   const question = JSON.stringify([start, goal, robot, model.weights?.generation]);
-  if (question === asked && model.firm) return;
+  if (question === asked) return;
   asked = question;
   stop?.abort();
   stop = new AbortController();

@@ -36,29 +36,31 @@ const ask = debounced(async () => {
   const wanted = edits(false);
   if (!wanted.length) {
     failed = null;
-    resumeFirm();
     return model.set('preview', null);
   }
   pauseFirm();
-  stop = new AbortController();
+  const mine = new AbortController();
+  stop = mine;
   const asked = question();
   const { start, goal, robot } = model.ask;
   const body = { edits: wanted, ...(start && goal ? { start, goal } : {}), ...(robot ? { robot } : {}) };
   try {
-    const answer = await post('/api/preview', { ...body, patience_ms: QUICK }, { signal: stop.signal });
+    const answer = await post('/api/preview', { ...body, patience_ms: QUICK }, { signal: mine.signal });
     failed = null;
     previewed = asked;
     model.set('refusal', null);
     model.set('preview', answer);
     resumeFirm();
     // The first answer is quick; the whole comparison follows while nobody types.
-    if (answer.routes?.truncated) model.set('preview', await post('/api/preview', { ...body, patience_ms: THOROUGH }, { signal: stop.signal }));
+    if (answer.routes?.truncated) model.set('preview', await post('/api/preview', { ...body, patience_ms: THOROUGH }, { signal: mine.signal }));
   } catch (error) {
     if (error.name === 'AbortError' || asked !== question()) return undefined;
     failed = error;
-    resumeFirm();
     model.set('preview', null);
     model.set('refusal', error);
+  } finally {
+    // Where it was broken off for another one, that one goes before, too.
+    if (stop === mine) resumeFirm();
   }
   return undefined;
 }, WAIT);

@@ -70,6 +70,23 @@ async fn an_edit_is_discarded_by_escape_and_a_word_is_no_number() {
     );
 }
 
+/// How firm the way is stands back while a preview is waited for.
+#[tokio::test(flavor = "multi_thread")]
+async fn what_stands_back_for_a_preview_goes_on_where_that_is_discarded_before_it_comes() {
+    let (_site, _service, browser) = at_a_desk("paper", "#map?start=f&goal=e").await;
+    let slow = "const real = window.fetch; window.fetch = (at, how) => String(at).includes('/api/preview') \
+        ? new Promise((_, refuse) => { window.isAsked = true; how.signal.addEventListener('abort', () => refuse(new DOMException('', 'AbortError'))); }) \
+        : real(at, how)";
+    browser.run(slow).await;
+    let cell = hardness_of("SQUAT");
+    browser.type_into(&cell, "2.5").await;
+    browser.until("window.isAsked", "a preview is asked for").await;
+    browser.find(&cell).await.send_keys("\u{e00c}").await.unwrap();
+    browser.until("document.getElementById('preview-card').hidden", "the edit is gone").await;
+    browser.click("#how-firm").await;
+    browser.says("#firm", "STAND hardness is 1; the way stays the best").await;
+}
+
 #[tokio::test(flavor = "multi_thread")]
 async fn of_two_experts_the_later_one_is_told_and_nothing_is_lost() {
     let (site, service, anna) = at_a_desk("paper", "#map?start=f&goal=e").await;
