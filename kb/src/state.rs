@@ -84,7 +84,6 @@ pub struct State {
 pub(crate) struct Waits(Option<Weak<()>>);
 
 impl Waits {
-    /// Whether anybody waits.
     pub(crate) fn is_anybody(&self) -> bool {
         self.0.as_ref().is_none_or(|waits| waits.strong_count() > 0)
     }

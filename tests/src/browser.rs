@@ -116,10 +116,10 @@ impl Browser {
         }
     }
 
-    /// Clicks the button with this text inside an element.
+    /// Clicks the button with this text inside an element, once it can be pressed: one that does something cannot until that is done.
     pub async fn press(&self, within: &str, text: &str) {
         let script = format!(
-            "[...document.querySelectorAll('{within} button, {within} a')].find((b) => b.checkVisibility() && b.textContent.includes({text:?}))"
+            "[...document.querySelectorAll('{within} button, {within} a')].find((b) => b.checkVisibility() && !b.disabled && b.textContent.includes({text:?}))"
         );
         self.until(&format!("Boolean({script})"), &format!("a button `{text}` in {within}")).await;
         self.run(&format!("{script}.click()")).await;
