@@ -162,6 +162,11 @@ pub(crate) fn compare_cells(comparison: Comparison, a: Cell, b: Cell, symbols: &
     }
 }
 
+/// A number in a text: zero has no sign there.
+pub(crate) fn written(number: f64) -> String {
+    (number + 0.0).to_string()
+}
+
 /// Texts and numbers one after the other; `None` where one is unknown, or the whole is too long.
 pub(crate) fn concat(a: Cell, b: Cell, symbols: &RefCell<Symbols>) -> Option<Symbol> {
     let mut symbols = symbols.borrow_mut();
@@ -169,7 +174,7 @@ pub(crate) fn concat(a: Cell, b: Cell, symbols: &RefCell<Symbols>) -> Option<Sym
     for cell in [a, b] {
         match cell {
             Cell::Text(symbol) => whole.push_str(symbols.text(symbol).map_or("", |text| text)),
-            Cell::Number(number) => whole.push_str(&number.to_string()),
+            Cell::Number(number) => whole.push_str(&written(number)),
             Cell::Truth(_) | Cell::Unknown => return None,
         }
     }
@@ -212,14 +217,15 @@ fn arithmetic(operator: Arithmetic, a: &Lane<f64>, b: &Lane<f64>) -> Lane<'stati
     loops!(Add Subtract Multiply Divide Remainder Power Min Max Hypot)
 }
 
-/// Two numbers to one; what is unknown stays unknown.
+/// Two numbers to one; what is unknown stays unknown. Whole numbers have no zero below zero, so no product is one
+/// either.
 #[inline]
 pub(crate) fn compute(operator: Arithmetic, a: f64, b: f64) -> f64 {
     let known = |value: f64| if a.is_nan() || b.is_nan() { f64::NAN } else { value };
     match operator {
         Arithmetic::Add => a + b,
         Arithmetic::Subtract => a - b,
-        Arithmetic::Multiply => a * b,
+        Arithmetic::Multiply => a * b + 0.0,
         Arithmetic::Divide => a / b,
         Arithmetic::Remainder => a % b,
         // An unknown exponent stays unknown, though 1 to the power of anything is 1.
@@ -233,7 +239,7 @@ pub(crate) fn compute(operator: Arithmetic, a: f64, b: f64) -> f64 {
 #[inline]
 pub(crate) fn apply(function: Function, a: f64) -> f64 {
     match function {
-        Function::Negate => -a,
+        Function::Negate => 0.0 - a,
         Function::Abs => a.abs(),
         Function::Sqrt => a.sqrt(),
         Function::Floor => a.floor(),

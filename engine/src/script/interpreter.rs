@@ -15,6 +15,8 @@ use super::limits::{
     MAX_ARRAY, MAX_CALL_LEVELS, MAX_DEPTHS, MAX_FUNCTIONS, MAX_MAP, MAX_STEPS, MAX_TEXT, MAX_VARIABLES,
 };
 use super::{sizes, syntax};
+use crate::machine::evaluate::{apply, compute, written};
+use crate::plan::node::{Arithmetic, Function};
 
 thread_local! {
     static DEADLINE: Cell<Option<Instant>> = const { Cell::new(None) };
@@ -140,13 +142,17 @@ fn register_functions(engine: &mut Engine) {
         .register_fn("sleep", |_: f64| -> Refused { Err("a rule may not sleep".into()) })
         .register_fn("/", |a: i64, b: i64| a as f64 / b as f64)
         .register_fn("%", |a: i64, b: i64| a as f64 % b as f64)
+        .register_fn("*", |a: f64, b: f64| compute(Arithmetic::Multiply, a, b))
+        .register_fn("*", |a: i64, b: f64| compute(Arithmetic::Multiply, a as f64, b))
+        .register_fn("*", |a: f64, b: i64| compute(Arithmetic::Multiply, a, b as f64))
+        .register_fn("-", |a: f64| apply(Function::Negate, a))
         .register_fn("**", |a: i64, b: i64| (a as f64).powf(b as f64))
         // rhai's own multiplies whole powers out, and differs in the last bit.
         .register_fn("**", |a: f64, b: i64| a.powf(b as f64))
-        .register_fn("+", |text: ImmutableString, number: f64| format!("{text}{number}"))
-        .register_fn("+", |number: f64, text: ImmutableString| format!("{number}{text}"))
-        .register_fn("+=", |text: &mut ImmutableString, number: f64| *text += number.to_string())
-        .register_fn("to_string", |number: f64| number.to_string())
+        .register_fn("+", |text: ImmutableString, number: f64| format!("{text}{}", written(number)))
+        .register_fn("+", |number: f64, text: ImmutableString| format!("{}{text}", written(number)))
+        .register_fn("+=", |text: &mut ImmutableString, number: f64| *text += written(number))
+        .register_fn("to_string", written)
         .register_fn("ceil", f64::ceil)
         .register_fn("ceil", |a: i64| a)
         .register_fn("floor", |a: i64| a)

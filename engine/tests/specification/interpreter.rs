@@ -226,6 +226,25 @@ proptest! {
 }
 
 #[test]
+fn zero_has_no_sign() {
+    let rule = r#"
+        rule "c" each t in T then {
+            t.a = "" + -(0 + 0); t.k = "" + 0 * -3; t.c = `${-t.x}`; t.d = "" + round(-0.2); t.e = 1 / (t.x * -1);
+        }
+        rule "i" each t in T then {
+            for i in 0..1 { }
+            t.f = "" + -(0 + 0); t.g = "" + 0 * -3; t.h = `${-t.x}`; t.i = "" + round(-0.2); t.j = 1 / (t.x * -1);
+        }"#;
+    let (base, _) = concluded(rule, [class(&ROWS)]);
+    for (compiled, interpreted) in ["a", "k", "c", "d"].iter().zip(["f", "g", "h", "i"]) {
+        assert_eq!(base.value("T", "1", compiled), Some("0".into()), "{compiled}");
+        assert_eq!(base.value("T", "1", interpreted), Some("0".into()), "{interpreted}");
+    }
+    assert_eq!(base.value("T", "1", "e"), Some(f64::INFINITY.into()));
+    assert_eq!(base.value("T", "1", "j"), Some(f64::INFINITY.into()));
+}
+
+#[test]
 fn functions_of_the_file_and_of_the_library_may_be_called_anywhere() {
     let rule = r#"
         const FAR = 5;
