@@ -75,8 +75,9 @@ impl Layers {
 /// computed once, whatever robot they are of.
 ///
 /// A layer is everything solid grown by the state, taken from the floor: exactly along walls; about corners a disc's arc is
-/// drawn around by tangents a quarter of a turn apart, and exactly where something else is near. An image's walls are made
-/// straight where that closes no gap that a disc passes, outwards by at most a cell.
+/// drawn around by tangents a quarter of a turn apart, and exactly where something else is near, or where it dips into a gap
+/// that it does not pass. An image's walls are made straight where that closes no gap that a disc passes, outwards by at most a
+/// cell.
 ///
 /// Rooms are cut along the outlines of named areas; of those that are entered by any part of the robot, along the outline of
 /// where its middle then is. A named door is a band of rooms, and whoever passes it enters one of them.

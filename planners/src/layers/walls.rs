@@ -96,8 +96,12 @@ fn lines(ring: &[Corner]) -> impl Iterator<Item = Segment> + '_ {
     ring.iter().zip(ring.iter().cycle().skip(1)).map(|(a, b)| Segment::new(a.at, b.at))
 }
 
+/// Of gaps that a disc does not pass, into those of at least this share of what it takes it dips so deep that a slimmer state
+/// goes noticeably less far alone: the deepest place is drawn exactly.
+const DIPPED: f64 = 0.8;
+
 /// Finds where something is so near to a corner that a coarse arc about it might close the gap: straight ahead of it, not along
-/// its own wall.
+/// its own wall. Where the gap is too narrow for the disc, what it touches from where it comes furthest into it.
 fn find_tight(ring: &mut [Corner], index: &RTree<Line>, [across, most]: [f64; 2]) {
     let count = ring.len();
     for number in 0..count {
@@ -113,9 +117,19 @@ fn find_tight(ring: &mut [Corner], index: &RTree<Line>, [across, most]: [f64; 2]
             let way = line.nearest_to(here) - here;
             let length = way.length();
             let is_ahead = way.dot(come) >= -ROUNDING_M && way.dot(go) <= ROUNDING_M;
-            if (across..most).contains(&(length + ROUNDING_M)) && is_ahead {
-                tight.push(way * (1.0 / length));
+            let share = (length + ROUNDING_M) / across;
+            if !is_ahead || length + ROUNDING_M >= most || share < DIPPED {
+                continue;
             }
+            let towards = way * (1.0 / length);
+            if share >= 1.0 {
+                tight.push(towards);
+                continue;
+            }
+            let is_corner = [line.a, line.b].iter().any(|end| end.distance(here + way) <= ROUNDING_M);
+            let touching = if is_corner { share } else { 2.0 * share - 1.0 };
+            let aside = (1.0 - touching * touching).max(0.0).sqrt();
+            tight.extend([aside, -aside].map(|aside| towards.rotated(Point::new(touching, aside))));
         }
         ring[number].tight = tight;
     }

@@ -116,6 +116,17 @@ fn under_a_pipe_the_shape_is_changed_just_before_and_just_behind() {
 }
 
 #[test]
+fn before_a_gap_that_is_too_narrow_the_shape_is_changed_as_deep_in_it_as_it_fits() {
+    let (wall, gap, radius) = (0.1, 0.5f64, 0.3f64);
+    let plan = Plan::hall(12.0, 4.0)
+        .with_rect(6.0 - wall / 2.0, 0.0, 6.0 + wall / 2.0, 2.0 - gap / 2.0)
+        .with_rect(6.0 - wall / 2.0, 2.0 + gap / 2.0, 6.0 + wall / 2.0, 4.0);
+    let body = Body::new(&[("STAND", 1.7, 2.0 * radius, 1.0), ("SIDE", 1.7, 0.36, 2.0)]);
+    let before = (radius.powi(2) - (gap / 2.0).powi(2)).sqrt();
+    expect(&plan, &body, (1.0, 2.0), (11.0, 2.0), 10.0 + wall + 2.0 * before);
+}
+
+#[test]
 fn two_changes_at_one_point_are_made_where_they_cost_less_than_one() {
     let plan = Plan::hall(12.0, 2.0).with_bridge(5.0, 0.0, 5.5, 2.0, 0.6);
     let states = [("STAND", 1.7, 0.6, 1.0), ("KNEEL", 1.0, 0.6, 3.0), ("LIE", 0.5, 0.6, 4.0)];
