@@ -142,6 +142,15 @@ pub(crate) async fn join(connection: &mut SqliteConnection) -> Result<()> {
     Ok(())
 }
 
+/// The newest edit after one, of the same, that is neither taken back nor takes one back.
+pub async fn later(connection: &mut SqliteConnection, edit: &Edit) -> Result<Option<i64>> {
+    let query = sqlx::query_scalar(
+        "SELECT max(id) FROM history WHERE id > ? AND table_name = ? AND key = ? AND column_name IS ? AND undone IS NULL
+         AND id NOT IN (SELECT undone FROM history WHERE undone IS NOT NULL)",
+    );
+    Ok(query.bind(edit.id).bind(&edit.table).bind(&edit.key).bind(&edit.column).fetch_one(connection).await?)
+}
+
 /// The newest `most` edits that are neither taken back nor take one back: what undo undoes, in this order.
 pub async fn undoable(connection: &mut SqliteConnection, most: u32) -> Result<Vec<i64>> {
     let query = sqlx::query_scalar(

@@ -235,6 +235,13 @@ impl Site {
         let file = folder.join("site.toml");
         let text = fs::read_to_string(&file).map_err(|error| no_site(folder, &file, &error))?;
         let name = file.display().to_string();
+        if text.trim().is_empty() {
+            // an editor empties a file before it writes it, and without a site's areas robots go where they must not
+            let help =
+                "it names the map, the robots and what lies over the map; one line does: name = \"my site\"";
+            let message = format!("{name} is empty");
+            return Err(Error::said(crate::error::Code::SiteMissing, message, Some(help.to_owned())));
+        }
         let document = Document::parse(&name, &text).map_err(|error| Error::all(error.problems))?;
         let fields = document.fields("site.toml");
         let mut problems = Vec::new();

@@ -15,6 +15,11 @@ pub async fn undo(connection: &mut SqliteConnection, id: i64, author: &Author) -
     if let Some(by) = edit.undone {
         return Err(conflict(format!("edit {by} did so already")));
     }
+    // a value that is what the edit made it may be so again by later ones, each of which then holds on to what this one left
+    if let Some(later) = history::later(connection, &edit).await? {
+        let reason = format!("edit {later} came later and is of the same; take that one back first");
+        return Err(conflict(reason));
+    }
     let done = inverse(connection, &edit, author).await?;
     history::mark_undone(connection, id, done.id).await?;
     Ok(done)

@@ -157,7 +157,8 @@ fn conclusions(report: &Report) {
     if listed.len() > LISTED {
         line(&format!("and {} more", listed.len() - LISTED));
     }
-    if report.conclusions.is_empty() && report.rooms.total == 0 && report.course.is_none() {
+    let has_rooms = report.rooms.total > 0 || report.cut_anew;
+    if report.conclusions.is_empty() && !has_rooms && report.course.is_none() {
         line("no rule concludes anything else than before");
     }
 }
@@ -169,11 +170,13 @@ const LISTED: usize = 10;
 pub fn changes(said: &str, report: &Report) {
     reacted(report);
     conclusions(report);
-    if report.rooms.total == 0 && report.course.is_none() {
+    if report.rooms.total == 0 && !report.cut_anew && report.course.is_none() {
         return;
     }
     if report.course.is_some() {
         // there are no rooms that could change
+    } else if report.cut_anew && report.rooms.total == 0 {
+        line("no room is left: no state fits anywhere on the map");
     } else if report.cut_anew {
         line(&format!(
             "the rooms were cut anew: {}, {}",

@@ -98,7 +98,20 @@ pub(super) fn open(
     let opens = |fact: &&Row| fact.property == CLOSED && fact.value == adit_db::Cell::Integer(0);
     let is_told = facts.iter().any(opens);
     facts.retain(|fact| !opens(fact));
-    if facts.is_empty() && (is_told || tell.class == "DOORWAYS" && !is_shut(tx, what, &row)?) {
+    let mut is_open = || -> Result<bool> {
+        Ok(match tell.class.as_str() {
+            "DOORWAYS" => !is_shut(tx, what, &row)?,
+            "NAMED_DOORS" => {
+                Building::read(tx)?.doorway_named(&tell.object).is_some() && !is_shut(tx, &tell.object, &row)?
+            }
+            "SPACES" => {
+                let building = Building::read(tx)?;
+                building.space_named(&tell.object).is_some_and(|space| space.closed != Some(true))
+            }
+            _ => false,
+        })
+    };
+    if facts.is_empty() && (is_told || is_open()?) {
         let message = format!("`{what}` is open already");
         return Err(Error::said(Code::TellUsage, message, None));
     }
@@ -171,6 +184,10 @@ fn named(tx: &mut Tx<'_>, what: &str) -> Result<(&'static str, String)> {
     if let Some(class) = named.class_of(name) {
         return Ok((class, name.to_owned()));
     }
+    // a space with two places has the name of neither, and people mean it by either
+    if let Some(space) = space_about(tx, what, &building)? {
+        return Ok(("SPACES", space));
+    }
     let known: Vec<String> = named.names().collect();
     let help = did_you_mean(what, known.iter().map(String::as_str));
     let help = help
@@ -181,6 +198,15 @@ fn named(tx: &mut Tx<'_>, what: &str) -> Result<(&'static str, String)> {
         format!("the site has nothing called `{what}` that could be closed"),
         help,
     ))
+}
+
+/// The space in which a place lies.
+fn space_about(tx: &mut Tx<'_>, place: &str, building: &Building) -> Result<Option<String>> {
+    let ends = tx.places()?;
+    let Some(at) = ends.iter().find(|of| of.place == place).map(|of| Point::new(of.x, of.y)) else {
+        return Ok(None);
+    };
+    Ok(building.space_at(at).and_then(|space| building.space(space.space)))
 }
 
 /// Of a map that is not cut into rooms, what can be closed, with its class: a lane, a channel, a doorway, ...; or the one at a

@@ -7,8 +7,10 @@ use adit_db::{Cell, Tx};
 use adit_engine::RuleBase;
 use serde_json::{Map, Value};
 
+use super::place;
 use super::tell::{self, Tell};
 use crate::error::{Code, Error, Result};
+use crate::graph::Building;
 use crate::knowledge::{KnowledgeBase, laid};
 use crate::site::clock::stored;
 use crate::words::suggest::{did_you_mean, listed};
@@ -104,6 +106,7 @@ impl Lay {
             return Err(Error::said(Code::LaidTaken, message, Some(help)));
         }
         check_corners(&self.corners, &tx.laid()?)?;
+        self.check_name(tx)?;
         let row = Row {
             name: name.to_owned(),
             what: what.to_owned(),
@@ -132,6 +135,23 @@ impl Lay {
         Ok(tx.add_row("laid", &cells, author)?)
     }
 
+    /// Refuses a name that means something else to whoever closes or avoids by names.
+    fn check_name(&self, tx: &mut Tx<'_>) -> Result<()> {
+        let (name, building) = (self.name.trim(), Building::read(tx)?);
+        let other = if place::split(name).is_some() {
+            "a point".to_owned()
+        } else if let Some(doorway) = building.doorway_named(name) {
+            format!("the doorway at {:.2}, {:.2}", doorway.x, doorway.y)
+        } else if let Some(space) = building.space_named(name).filter(|space| space.called.is_none()) {
+            format!("the {} at {:.2}, {:.2}", space.kind.as_deref().unwrap_or("space"), space.x, space.y)
+        } else {
+            return Ok(());
+        };
+        let message = format!("`{name}` would mean two things: this {} and {other}", self.what.name());
+        let help = format!("give the {} another name", self.what.name());
+        Err(Error::said(Code::LaidTaken, message, Some(help)))
+    }
+
     fn outline(&self) -> Result<String> {
         let corners = match *self.corners {
             [[x0, y0], [x1, y1]] => {
@@ -151,6 +171,15 @@ impl Lay {
     fn further(&self, tx: &mut Tx<'_>, site: &KnowledgeBase, rules: &RuleBase) -> Result<String> {
         let mut further = Map::new();
         for (property, value) in &self.properties {
+            if property == "kind" {
+                let message = format!("what `{}` is, is its kind, and no further property", self.name.trim());
+                let help = "say it by `--kind`".to_owned();
+                return Err(Error::said(Code::LaidUsage, message, Some(help)));
+            }
+            if further.contains_key(property) {
+                let message = format!("`{property}` of `{}` is said twice", self.name.trim());
+                return Err(Error::said(Code::LaidUsage, message, None));
+            }
             let tell = Tell {
                 class: "AREAS".to_owned(),
                 object: self.name.clone(),

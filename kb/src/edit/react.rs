@@ -11,11 +11,11 @@ use adit_db::{Cell, Tx};
 use adit_engine::{CarriedOut, Diagnostic, Firing, RuleBase, Told as Done, Value};
 use adit_planners::facts::{Column, Table};
 
+use super::Tell;
 use super::undo::called;
-use super::{Edit, Tell};
 use crate::error::{Code, Error, Result};
 use crate::knowledge::classes::{self, ROUTES};
-use crate::knowledge::told::Told;
+use crate::knowledge::told::{Object, Told};
 use crate::site::clock::stored;
 use crate::state::keep::LastBuild;
 use crate::state::{Nothing, State, Step};
@@ -185,8 +185,10 @@ impl State {
                     until: until.map(stored),
                     new_property: true,
                 };
-                let edit = Edit::Tell(tell);
-                let done = edit.apply(tx, &self.site, &self.inputs.rules, author)?;
+                // the last build kept what there was before this one
+                let object = Object::placed(&self.knowledge, class, key);
+                let row = tell.row_about(tx, (&self.site, &self.inputs.rules), author, object)?;
+                let done = tx.add_row("told", &row, author)?;
                 Ok(Some(format!("fact {}: {}", done.key, super::change(&Cell::Null, &done.new))))
             }
         }

@@ -60,11 +60,25 @@ impl Tell {
         rules: &RuleBase,
         author: &Author,
     ) -> Result<Vec<(&'static str, Cell)>> {
+        self.row_about(tx, (site, rules), author, None)
+    }
+
+    /// The same about an object that is known; where none is, its name is looked up in what the last build kept.
+    pub(super) fn row_about(
+        &self,
+        tx: &mut Tx<'_>,
+        (site, rules): (&KnowledgeBase, &RuleBase),
+        author: &Author,
+        object: Option<Object>,
+    ) -> Result<Vec<(&'static str, Cell)>> {
         let told = site.told(tx, rules)?;
         let schema = site.schema(&told);
         let class = self.class(&schema)?;
         self.check_property(&class, &schema, rules)?;
-        let object = self.find((tx, site), &class, &schema, &told)?;
+        let object = match object {
+            Some(object) => object,
+            None => self.find((tx, site), &class, &schema, &told)?,
+        };
         let kind = self.kind(tx, &class, &schema)?;
         let (kind, value) = if lists_robots(&class, &self.property) {
             ("text", robots_of(&told, &self.value)?)

@@ -163,12 +163,15 @@ impl Building {
         self.doorways.iter().find(|doorway| ends_of(doorway).map(f64::to_bits) == ends)
     }
 
-    /// The space of this name: what rules call it, or `space 3`.
+    /// The space of this name: what rules call it, or its number behind what it is: `corridor 15`, `space 15`. By those it is found
+    /// again when the map calls it otherwise.
     pub fn space_named(&self, name: &str) -> Option<&Space> {
-        let is_meant = |space: &&Space| {
-            self.space(space.space).as_deref() == Some(name) || is_numbered(name, "space", space.space)
+        let is_called = |space: &&Space| self.space(space.space).as_deref() == Some(name);
+        let is_numbered = |space: &&Space| {
+            let kinds = [Some("space"), space.kind.as_deref()];
+            kinds.into_iter().flatten().any(|kind| is_numbered(name, kind, space.space))
         };
-        self.spaces.iter().find(is_meant)
+        self.spaces.iter().find(is_called).or_else(|| self.spaces.iter().find(is_numbered))
     }
 
     /// What people call spaces and doorways.
@@ -209,6 +212,13 @@ impl Building {
                 _ => None,
             }
         })
+    }
+
+    /// The space that holds a point.
+    pub fn space_at(&self, at: Point) -> Option<&Space> {
+        let holds =
+            |space: &&Space| self.sides_of(space.space).is_some_and(|sides| polygon::encloses(sides, at));
+        self.spaces.iter().find(holds)
     }
 
     /// The sides of a space's outline.

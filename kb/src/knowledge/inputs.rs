@@ -80,7 +80,8 @@ impl Inputs {
         let ignored = ignored
             .map(|problem| problem.to_string())
             .chain(lint::unheard(&base, &self.world))
-            .chain(lint::unread_of_named(&base, &self.world));
+            .chain(lint::unread_of_named(&base, &self.world))
+            .chain(lint::unknown_kinds(&base, &self.world));
         let notes = ignored.chain(self.of_map.iter().cloned()).collect();
         let rule_names = (1..).zip(base.rules().iter().map(|rule| rule.name().to_owned())).collect();
         Self {

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use adit_engine::{Dominated, Instead, Misspelt, Replaced, Rule, RuleBase, Standing};
 use adit_planners::overlays::{AREAS, only_of_site, own};
 use adit_planners::planner::Planner;
-use adit_planners::world::World;
+use adit_planners::world::{Area, World};
 use miette::NamedSource;
 
 use crate::error::{Code, Finding};
@@ -132,6 +132,49 @@ pub fn unread_of_named(rules: &RuleBase, world: &World) -> Vec<String> {
         format!("no rule reads `{property}` of the {whose} `{}`{more}: it changes nothing{help}", names[0])
     };
     only_of_site(world).into_iter().filter(is_unread).map(sentence).collect()
+}
+
+/// Kinds of areas of which no rule speaks, where nothing else of the area is read: a slip of the pen, mostly. Where rules compare
+/// kinds with what tables hold, nobody knows beforehand which there are.
+pub fn unknown_kinds(rules: &RuleBase, world: &World) -> Vec<String> {
+    let read: BTreeSet<String> =
+        rules.rules().iter().flat_map(Rule::reads).map(ToString::to_string).collect();
+    let of_kinds: Vec<&Rule> =
+        rules.rules().iter().filter(|rule| rule.reads().any(is_kind_of_areas)).collect();
+    let own = [AREAS, "AREA_ROOMS", "ROOMS", "DOORS", "SPACES", "DOORWAYS", "ROBOTS"];
+    if of_kinds.is_empty() || of_kinds.iter().any(|rule| rule.classes().any(|class| !own.contains(&class))) {
+        return Vec::new();
+    }
+    let said: BTreeSet<&str> = of_kinds
+        .iter()
+        .flat_map(|rule| rule.place().0.text().split(['"', '`']).skip(1).step_by(2))
+        .filter(|text| !text.contains(['\n', ' ']))
+        .collect();
+    let is_read =
+        |area: &Area| area.further.iter().any(|(name, _)| read.contains(&format!("{AREAS}.{name}")));
+    let mut unknown: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
+    for area in world.areas.iter().filter(|area| !is_read(area)) {
+        if let Some(kind) = area.kind.as_deref().filter(|kind| !said.contains(kind)) {
+            unknown.entry(kind).or_default().push(&area.name);
+        }
+    }
+    let sentence = |(kind, names): (&str, Vec<&str>)| {
+        let more = match names.len() {
+            1 => String::new(),
+            count => format!(" and {} more", count - 1),
+        };
+        let help = did_you_mean(kind, said.iter().copied());
+        let help = help.map_or_else(String::new, |help| format!(" ({help})"));
+        format!(
+            "no rule speaks of areas of the kind `{kind}`, as `{}`{more} is: robots pass there as elsewhere{help}",
+            names[0]
+        )
+    };
+    unknown.into_iter().map(sentence).collect()
+}
+
+fn is_kind_of_areas(property: &adit_engine::PropertyName) -> bool {
+    property.class == AREAS && property.property == "kind"
 }
 
 /// Rules that make objects which are not for rules to make, and rules that read routes, which follow from what they conclude:

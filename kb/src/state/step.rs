@@ -22,6 +22,7 @@ use crate::graph::SiteGraph;
 use crate::graph::gauge::{Gauge, sizes};
 use crate::knowledge::classes;
 use crate::knowledge::told::{Attached, Told};
+use crate::site::lint;
 use crate::state::grounds::Reasons;
 use crate::state::rows;
 use crate::state::weights;
@@ -90,7 +91,10 @@ impl State {
         let (world, notes) = if told.laid == self.told.laid {
             (Arc::clone(&self.world), Vec::new())
         } else {
-            let (world, notes) = told.laid.over(&inputs.world);
+            let (world, mut notes) = told.laid.over(&inputs.world);
+            let known = lint::unknown_kinds(&inputs.rules, &inputs.world);
+            let unknown = lint::unknown_kinds(&inputs.rules, &world).into_iter();
+            notes.extend(unknown.filter(|note| !known.contains(note)));
             (Arc::new(world), notes)
         };
         told.notes.extend(notes);

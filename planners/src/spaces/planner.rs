@@ -5,12 +5,16 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use super::{Doorway, Space, Spaces};
 use crate::facts::{Column, Facts, Table};
+use crate::geometry::polygon::sides;
 use crate::geometry::{Point, Rect};
 use crate::known::keys;
 use crate::planner::{Planner, PlannerError, Signature};
-use crate::world::{NamedDoor, Obstacle, Occupancy, World};
+use crate::world::{Area, NamedDoor, Obstacle, Occupancy, World};
 
 const NAME: &str = "spaces and doorways";
+
+/// An area gives its name to a space of which it takes at least this share: a wet spot in a hall is no name for the hall.
+const MOST: f64 = 0.5;
 
 const GIVES: [&str; 22] = [
     "SPACES.space",
@@ -39,8 +43,9 @@ const GIVES: [&str; 22] = [
 
 /// Gives the spaces of a building and the doorways between them, the same for all robots; metres.
 ///
-/// SPACES by number: `called` (the only place in it, else the only area whose middle lies in it), `area`, `breadth` (where it
-/// is widest, at `x` and `y`), `outline` (a JSON array of rings of `[x, y]`, the outer one first). DOORWAYS by number:
+/// SPACES by number: `called` (the only place in it, else the only area whose middle lies in it and that is at least half as
+/// large), `area`, `breadth` (where it is widest, at `x` and `y`), `outline` (a JSON array of rings of `[x, y]`, the outer one
+/// first). DOORWAYS by number:
 /// `called` (the named door that lies there), the two spaces, its ends, its middle, `width`, and `height`, the lowest bridge
 /// over it, unknown where there is none. Whether either is `closed`, and from which space alone (`closed_from`, by name), is for
 /// rules, and for whoever tells it. A named door is a doorway wherever it is drawn.
@@ -105,7 +110,12 @@ fn spaces(world: &World, found: &Spaces) -> Table {
     let of = |at: Point, space: usize| found.at(at) == Some(space);
     let called = |space: usize| {
         let places = world.places.iter().filter(|place| of(place.at, space)).map(|place| &place.name);
-        let areas = world.areas.iter().filter(|area| of(area.centre, space)).map(|area| &area.name);
+        let is_most = |area: &&Area| {
+            let corners = area.shape.corners();
+            let signed: f64 = sides(&corners).map(|side| side.a.cross(side.b)).sum();
+            of(area.centre, space) && signed.abs() / 2.0 >= MOST * found.spaces[space].area
+        };
+        let areas = world.areas.iter().filter(is_most).map(|area| &area.name);
         only(places).or_else(|| only(areas)).cloned()
     };
     let all = &found.spaces;

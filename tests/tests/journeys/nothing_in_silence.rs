@@ -98,3 +98,114 @@ fn the_history_is_in_words() {
     }
     assert!(!history.contains(['{', '"']), "{history}");
 }
+
+/// Two rooms, 6 m and 5.7 m wide, with a named door between them.
+fn two_rooms() -> TestSite {
+    let map = "width = 12.0\ndepth = 7.0\n\
+        [[obstacle]]\nrect = [6.0, 0.0, 6.3, 3.0]\n[[obstacle]]\nrect = [6.0, 4.0, 6.3, 7.0]\n";
+    let robots = "[[robots]]\nstate = \"STAND\"\naction = \"WALK\"\nheight = 1.7\nwidth = 0.6\nhardness = 1.0\n\
+        [[robots]]\nstate = \"SIDE\"\naction = \"SIDE-WALK\"\nheight = 1.7\nwidth = 0.3\nhardness = 2.0\n";
+    let site = "name = \"two rooms\"\n\
+        [[place]]\nname = \"home\"\nat = [1.0, 1.0]\n[[place]]\nname = \"window\"\nat = [11.0, 6.0]\n\
+        [[door]]\nname = \"middle\"\nfrom = [6.15, 3.0]\nto = [6.15, 4.0]\n";
+    TestSite::empty().with("map.toml", map).with("robots.toml", robots).with("site.toml", site)
+}
+
+#[test]
+fn a_door_or_a_space_that_nothing_closes_is_not_told_to_be_open() {
+    let site = two_rooms().built();
+    for what in ["middle", "home"] {
+        site.adit("open", &[what]).expecting(2).complains(&[&format!("`{what}` is open already")]);
+    }
+    assert_eq!(site.sqlite3("SELECT count(*) FROM told"), ["0"]);
+}
+
+#[test]
+fn an_edit_is_taken_back_before_those_that_came_before_it_of_the_same_cell() {
+    let site = two_rooms().built();
+    for hardness in ["3", "5", "3"] {
+        site.adit("tune", &["robots", "SIDE", "hardness", hardness]).expect_status(0);
+    }
+    let refused = ["edit 1 cannot be taken back: edit 3 came later and is of the same"];
+    site.adit("undo", &["1"]).expecting(2).complains(&refused);
+    for _ in 0..3 {
+        site.adit("undo", &[]).expect_status(0);
+    }
+    assert_eq!(site.sqlite3("SELECT hardness FROM robots WHERE state = 'SIDE'"), ["2.0"]);
+}
+
+#[test]
+fn rules_that_react_to_rooms_and_doorways_do_so_from_the_first_build_on() {
+    let rules = "property DOORWAYS.seen from table, default false;\n\
+        on \"seen\" each d in DOORWAYS where !d.seen then { d.seen = true; }\n\
+        property ROOMS.seen from table, default false;\n\
+        on \"entered\" each r in ROOMS where r.width > 5.0 && !r.seen then { r.seen = true; }\n";
+    let first = two_rooms().with("rules/seen.rhai", rules).built();
+    let facts = "SELECT class, x, y FROM told ORDER BY class, x, y";
+    let told = first.sqlite3(facts);
+    assert!(told.iter().any(|fact| fact.starts_with("DOORWAYS|6.15")), "{told:?}");
+    assert!(told.iter().any(|fact| fact.starts_with("ROOMS|")), "{told:?}");
+    let later = two_rooms().built().with("rules/seen.rhai", rules).built();
+    assert_eq!(later.sqlite3(facts), told);
+    // a doorway that comes is met as it is now
+    first.adit("lay", &["obstacle", "shelf", "3,1 3.2,7"]).expect_status(0);
+    let doorways = "SELECT x FROM told WHERE class = 'DOORWAYS' ORDER BY x";
+    assert_eq!(first.sqlite3(doorways), ["3.1", "6.15"]);
+}
+
+#[test]
+fn what_is_laid_over_the_map_takes_no_name_that_means_something_else() {
+    let site = two_rooms().with("site.toml", "name = \"two rooms\"\n").built();
+    let lay = |name: &str, more: &[&str]| site.adit("lay", &[&["area", name, "8,1 9,2"], more].concat());
+    lay("doorway 1", &[]).expecting(2).complains(&["two things: this area and the doorway at"]);
+    lay("room 2", &[]).expecting(2).complains(&["two things: this area and the room at"]);
+    lay("3,4", &[]).expecting(2).complains(&["two things: this area and a point"]);
+    lay("wet", &["--kind", "keep-out", "--with", "kind=wet"]).expecting(2).complains(&["say it by `--kind`"]);
+    let twice = ["--with", "hardness_factor=2", "--with", "hardness_factor=3"];
+    lay("wet", &twice).expecting(2).complains(&["`hardness_factor` of `wet` is said twice"]);
+    assert_eq!(site.sqlite3("SELECT count(*) FROM laid"), ["0"]);
+}
+
+#[test]
+fn a_kind_of_areas_that_no_rule_knows_is_noted() {
+    let site = two_rooms().built();
+    let lay =
+        |name: &str, kind: &str| site.adit("lay", &["area", name, "8,1 9,2", "--kind", kind]).expecting(0);
+    lay("one", "keep_out").complains(&["no rule speaks of areas of the kind `keep_out`, as `one` is"]);
+    let said = lay("two", "keep-out").stderr;
+    assert!(!said.contains("kind `keep-out`"), "{said}");
+}
+
+#[test]
+fn a_space_is_found_by_the_name_that_it_had_before_somebody_named_it() {
+    let site = two_rooms().with("site.toml", "name = \"two rooms\"\n").built();
+    site.adit("close", &["room 1"]).expect_status(0);
+    site.adit("lay", &["place", "home", "1,1"]).expect_status(0);
+    assert_eq!(site.sqlite3("SELECT name FROM spaces WHERE space = 1"), ["home"]);
+    site.adit("open", &["room 1"]).expect_status(0);
+    site.adit("close", &["home"]).expect_status(0);
+    // with two places it has the name of neither
+    site.adit("lay", &["place", "desk", "2,2"]).expect_status(0);
+    assert_eq!(site.sqlite3("SELECT name FROM spaces WHERE space = 1"), ["room 1"]);
+    site.adit("open", &["home"]).expect_status(0);
+    assert_eq!(site.sqlite3("SELECT count(*) FROM told"), ["0"]);
+    // a wet spot is no name for the room around it
+    site.adit("lay", &["area", "puddle", "9,1 10,2"]).expect_status(0);
+    assert_eq!(site.sqlite3("SELECT name FROM spaces WHERE space = 2"), ["room 2"]);
+}
+
+#[test]
+fn a_site_file_that_is_empty_is_refused() {
+    let site = two_rooms().built();
+    site.write("site.toml", "");
+    site.adit("build", &[]).expecting(2).complains(&["site.toml is empty"]);
+}
+
+#[test]
+fn that_no_state_fits_anywhere_any_more_is_said() {
+    let site = two_rooms().built();
+    let wide = |state: &str| site.adit("tune", &["robots", state, "width", "20"]).expecting(0).stdout;
+    wide("SIDE");
+    let said = wide("STAND");
+    assert!(said.contains("no room is left: no state fits anywhere on the map"), "{said}");
+}

@@ -57,6 +57,37 @@ impl Attached {
     }
 }
 
+impl Object {
+    /// Where the object of a class with a key lies, so that it is found again when it has another number; `None` of classes whose
+    /// objects have names of their own, and of changes of shape.
+    pub fn placed(knowledge: &Inference, class: &str, key: &str) -> Option<Self> {
+        let row = knowledge.row(class, key)?;
+        let number = |property: &str| match knowledge.value_at(class, row, property) {
+            Some(Value::Number(number)) => Some(number),
+            _ => None,
+        };
+        let text = |property: &str| match knowledge.value_at(class, row, property) {
+            Some(Value::Text(text)) => Some(text),
+            _ => None,
+        };
+        let ends = || Some([number("x0")?, number("y0")?, number("x1")?, number("y1")?]);
+        match class {
+            "DOORS" | "DOORWAYS" if text("kind").is_none_or(|kind| &*kind == "door") => {
+                let [x0, y0, x1, y1] = ends()?;
+                Some(Self::Point([f64::midpoint(x0, x1), f64::midpoint(y0, y1)], Some([x0, y0, x1, y1])))
+            }
+            "ROOMS" => {
+                let [x0, y0, x1, y1] = ends()?;
+                let outline = outline::read(text("outline").as_deref(), Rect::new(x0, y0, x1, y1)).ok()?;
+                let centre = outline.centre();
+                Some(Self::Point([centre.x, centre.y], None))
+            }
+            "SPACES" => Some(Self::Point([number("x")?, number("y")?], None)),
+            _ => None,
+        }
+    }
+}
+
 impl Fact {
     /// The rows of the objects that a fact is about, ascending.
     ///
