@@ -1,7 +1,7 @@
 /** The cards under the map: why something is so, and why not that way. */
 
 import { get, path } from './api.js';
-import { button, byId, el, fill } from './dom.js';
+import { button, byId, el, fill, focusStays, shut } from './dom.js';
 import { edit, files, loadFiles, names, textOf } from './drafts.js';
 import { action, cost, list, number, value } from './format.js';
 import { model } from './model.js';
@@ -12,19 +12,25 @@ import { address } from './router.js';
 /** Where tests that are made on the page stand. */
 const MADE = 'tests/made.toml';
 
-/** A card under the map, which has the focus; one of its kind that is there goes. */
-export function card(id, title, ...content) {
+/**
+ * A card under the map; one of its kind that is there goes. It takes the focus, and comes into sight, where that is wanted:
+ * not from under the hand of somebody who has gone on since they asked.
+ */
+export function card(id, title, content, isWanted = () => true) {
+  const takes = isWanted() || Boolean(byId(id)?.contains(document.activeElement));
   byId(id)?.remove();
   const heading = el('h2', { text: title, tabindex: '-1' });
-  const close = button('Close', () => {
+  const close = shut('this', () => {
     if (id === 'why-not-card') model.set('whyNot', null);
     byId(id).remove();
     byId('canvas').focus({ preventScroll: true });
-  }, { class: 'quiet close' });
+  });
   const made = el('section', { class: 'card answer', id, 'aria-label': title }, close, heading, ...content);
   byId('answers').prepend(made);
-  made.scrollIntoView({ block: 'nearest' });
-  heading.focus({ preventScroll: true });
+  if (takes) {
+    made.scrollIntoView({ block: 'nearest' });
+    heading.focus({ preventScroll: true });
+  }
   return made;
 }
 
@@ -52,20 +58,21 @@ function propertiesOf(object, facts) {
 
 /** Asks why something is as it is, and shows it. @param {string} what `door 7`, `room d` */
 export async function why(what) {
+  const stays = focusStays();
   try {
     const answer = await get(path('/api/why', { what }));
     const facts = answer.facts ?? [];
     const told = answer.conclusions.length ? [] : [el('p', { text: 'No rule says anything of it.' })];
-    card('why-card', `Why is ${answer.name ?? what} as it is?`, ...told, el('ul', { class: 'reasons' }, ...answer.conclusions.map((of) => conclusion(of, facts))), lone(facts, answer), testOf(answer, what));
+    card('why-card', `Why is ${answer.name ?? what} as it is?`, [...told, el('ul', { class: 'reasons' }, ...answer.conclusions.map((of) => conclusion(of, facts))), lone(facts, answer), testOf(answer, what)], stays);
   } catch (error) {
-    card('why-card', `Why is ${what} as it is?`, said(error));
+    card('why-card', `Why is ${what} as it is?`, [said(error)], stays);
   }
 }
 
 // What rules say of it now, as a test that stands in the tray with all else.
 function testOf(answer, what) {
   if (!model.may('rules') || !answer.conclusions.some(({ rule }) => rule)) return null;
-  const saidHere = el('div');
+  const saidHere = el('div', { role: 'status' });
   const make = button('Make a test of it', async () => {
     try {
       const test = await get(path('/api/rules/test', { what }));
@@ -77,6 +84,7 @@ function testOf(answer, what) {
     } catch (error) {
       fill(saidHere, said(error));
     }
+    saidHere.scrollIntoView({ block: 'nearest' });
   }, { id: 'make-test' });
   return el('div', {}, make, saidHere);
 }
@@ -93,17 +101,18 @@ function lone(facts, answer) {
 export async function whyNot(through) {
   const { start, goal, robot } = model.ask;
   const title = `Why not through ${through}?`;
-  const busy = card('why-not-card', title, el('p', { class: 'hint', text: 'Looking…' }));
+  const busy = card('why-not-card', title, [el('p', { class: 'hint', text: 'Looking…' })]);
+  const stays = focusStays();
   try {
     const answer = await get(path('/api/why-not', { start, goal, through, robot }));
     if (!busy.isConnected) return;
     const sentence = el('p', { class: 'sentence', text: answer.sentence ?? answer.reason ?? '' });
     const numbers = answer.cost !== null && answer.cost !== undefined
       ? el('p', { class: 'hint', text: `The best way costs ${cost(answer.best)}, the one through ${through} ${cost(answer.cost)}. It is dotted on the map.` }) : null;
-    card('why-not-card', title, sentence, numbers, details(answer));
+    card('why-not-card', title, [sentence, numbers, details(answer)], stays);
     model.set('whyNot', answer);
   } catch (error) {
-    card('why-not-card', title, said(error));
+    card('why-not-card', title, [said(error)], stays);
   }
 }
 

@@ -1,7 +1,7 @@
 /** Asking for a value: what rules lack to conclude it is asked here, question by question. */
 
 import { post } from './api.js';
-import { button, byId, el, fill, form } from './dom.js';
+import { button, byId, el, fill, focusStays, form } from './dom.js';
 import { value as inWords } from './format.js';
 import { model } from './model.js';
 import { said } from './notice.js';
@@ -17,10 +17,11 @@ export function askCard() {
 }
 
 async function ask() {
+  const stays = focusStays();
   try {
     const asked = await post('/api/ask', { what: byId('ask-what').value.trim(), answers: answers.map(({ what, value }) => ({ what, value })) });
     fill(byId('ask-said'), ...shown(asked), keepButton(asked));
-    byId('ask-answer')?.focus();
+    if (stays()) byId('ask-answer')?.focus();
   } catch (error) {
     // an answer that cannot be is asked for again
     answers.pop();

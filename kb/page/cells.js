@@ -8,7 +8,7 @@ import { model } from './model.js';
 export function field(column, label, value) {
   const made = column.kind === 'truth'
     ? el('select', { 'aria-label': label }, el('option', { value: '', text: '' }), el('option', { value: 'true', text: 'yes' }), el('option', { value: 'false', text: 'no' }))
-    : el('input', { 'aria-label': label, inputmode: column.kind === 'number' ? 'decimal' : null, spellcheck: 'false', size: column.kind === 'number' ? '5' : '12' });
+    : el('input', { 'aria-label': label, inputmode: column.kind === 'number' ? 'decimal' : null, spellcheck: 'false', size: column.kind === 'number' ? '5' : String(Math.max(12, exact(value).length + 1)) });
   made.value = exact(value);
   made.disabled = !model.may('tune');
   return made;

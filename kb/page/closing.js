@@ -2,12 +2,13 @@
 
 import { post } from './api.js';
 import { card } from './answers.js';
-import { button, el, fill, form } from './dom.js';
+import { button, byId, el, fill, focusStays, form } from './dom.js';
+import { untilWhen } from './format.js';
 import { model } from './model.js';
 import { said } from './notice.js';
 import { put } from './pending.js';
 import { refresh } from './refresh.js';
-import { andRules, showSaved } from './saved.js';
+import { andRules, focusSaved, showSaved } from './saved.js';
 import { holds, middleOf } from './shapes.js';
 import { nounOf, showsPieces, sidesOf } from './thing.js';
 import { lookAhead } from './would.js';
@@ -59,7 +60,7 @@ export function closings(thing) {
 /** Asks until when and for whom, shows what would change, and does it. */
 export function close(edit, label, sides = []) {
   const title = label.replace('…', '');
-  const until = el('input', { id: 'close-until', placeholder: '18:00, 2h, 2026-12-24T08:00', autocomplete: 'off' });
+  const until = el('input', { id: 'close-until', placeholder: 'opened, 18:00, 2h', title: 'A time, a while, or a day with its time: 18:00, 2h, 2026-12-24T08:00', autocomplete: 'off' });
   const reason = el('input', { id: 'close-why', placeholder: 'if you like' });
   const { robots } = model.site;
   const only = el('select', { id: 'close-only' }, el('option', { value: '', text: 'everybody' }), ...robots.map((robot) => el('option', { value: robot, text: robot })));
@@ -68,28 +69,33 @@ export function close(edit, label, sides = []) {
   const forSome = edit.kind === 'close' && robots.length > 1;
   const oneSide = edit.kind === 'close' && sides.length > 0;
   const wish = () => ({ ...edit, ...(oneSide && from.value ? { from: from.value } : {}), ...(ends && until.value.trim() ? { until: until.value.trim() } : {}), ...(forSome && only.value ? { only: [only.value] } : {}) });
-  const would = lookAhead('close-preview', wish);
+  const send = el('button', { type: 'submit', class: 'strong', text: title });
+  const would = lookAhead('close-preview', wish, send);
   const asked = form({ class: 'line-form' }, make,
-    ends ? el('label', {}, 'Until (empty: until it is opened) ', until) : null,
+    ends ? el('label', {}, 'Until ', until) : null,
     oneSide ? el('label', {}, 'From ', from) : null,
     forSome ? el('label', {}, 'For ', only) : null,
-    el('label', {}, 'Why ', reason), el('button', { type: 'submit', class: 'strong', text: title }),
+    el('label', {}, 'Why ', reason), send,
     button('Save it with the rest', toTheTray, { id: 'close-with-the-rest' }));
-  const made = card('tell-card', title, would.node, asked);
+  const made = card('tell-card', title, [would.node, asked]);
   for (const field of [until, only, from]) field.addEventListener('input', would.look);
   would.now();
   // Beside numbers, rules and what is drawn: previewed and saved with them.
   function toTheTray() {
     const edit = wish();
-    put(`close:${edit.what ?? edit.object ?? edit.fact}`, { words: `${title}${edit.from ? ` from ${edit.from}` : ''}${edit.until ? ` until ${edit.until}` : ''}${edit.only ? ` for ${edit.only}` : ''}`, edits: [edit] });
+    put(`close:${edit.what ?? edit.object ?? edit.fact}`, { words: `${title}${edit.from ? ` from ${edit.from}` : ''}${untilWhen(edit.until)}${edit.only ? ` for ${edit.only}` : ''}`, edits: [edit] });
     made.remove();
+    byId('preview-title').focus();
   }
   async function make() {
     if (!would.isReady()) return;
+    const stays = focusStays();
     try {
       const answer = await post('/api/edits', { edit: wish(), why: reason.value.trim() || undefined });
+      const isHere = stays();
       made.remove();
       showSaved(`${title}: done.${andRules([answer])}`, [answer.done.id]);
+      if (isHere) focusSaved();
       await refresh(answer.generation);
     } catch (error) {
       fill(would.node, said(error));

@@ -26,23 +26,49 @@ export function el(tag, attributes = {}, ...children) {
 export function button(text, act, attributes = {}) {
   const made = el('button', { type: 'button', text, ...attributes });
   made.addEventListener('click', async (event) => {
+    const stays = focusStays();
+    const hadFocus = document.activeElement === made;
     made.disabled = true;
     try {
       await act(event);
     } finally {
       made.disabled = false;
+      // What cannot be pressed loses the focus.
+      if (hadFocus && made.isConnected && stays()) made.focus({ preventScroll: true });
     }
   });
   return made;
 }
 
-/** Asks before something is done that cannot be undone; the answer is `no` unless somebody says otherwise. */
+/** The button that puts a card away: what is on the map is closed by buttons that say so. */
+export const shut = (what, act) => button('×', act, { class: 'quiet shut', 'aria-label': `Put ${what} away`, title: `Put ${what} away` });
+
+/** Says later on whether the focus is where it is now, or nowhere: whoever has gone on meanwhile keeps it. */
+export function focusStays() {
+  const before = document.activeElement;
+  return () => [before, document.body].includes(document.activeElement);
+}
+
+/**
+ * Asks before something is done that cannot be undone; the answer is `no` unless somebody says otherwise.
+ * @param {string|Promise<string>} question where it has to be found out first, it cannot be answered with yes before
+ */
 export function sure(question, yes) {
-  return new Promise((resolve) => {
-    const box = el('dialog', { 'aria-label': question, on: { close: () => { resolve(box.returnValue === 'yes'); box.remove(); } } }, el('p', { text: question }),
-      el('div', { class: 'buttons' }, button('Keep', () => box.close('no'), { autofocus: true }), button(yes, () => box.close('yes'), { class: 'strong' })));
+  return new Promise((resolve, reject) => {
+    const text = el('p', { text: 'Looking what would change…', role: 'status' });
+    const agree = el('button', { type: 'button', text: yes, class: 'strong', disabled: true, on: { click: () => box.close('yes') } });
+    const box = el('dialog', { 'aria-label': yes, on: { close: () => { resolve(box.returnValue === 'yes'); box.remove(); } } }, text,
+      el('div', { class: 'buttons' }, el('button', { type: 'button', text: 'Keep', autofocus: true, on: { click: () => box.close('no') } }), agree));
     document.body.append(box);
     box.showModal();
+    Promise.resolve(question).then((asked) => {
+      text.textContent = asked;
+      box.setAttribute('aria-label', asked);
+      agree.disabled = false;
+    }).catch((error) => {
+      reject(error);
+      box.close('no');
+    });
   });
 }
 
@@ -92,6 +118,14 @@ export function pressOnce() {
 /** Puts these children in place of what is there. */
 export function fill(parent, ...children) {
   parent.replaceChildren(...children.filter((child) => child !== null && child !== undefined));
+}
+
+/** As {@link fill}, but whoever has the focus on something there goes on from what takes its place. */
+export function refill(parent, ...children) {
+  const all = () => [...parent.querySelectorAll('button, input, select, a')];
+  const at = all().indexOf(document.activeElement);
+  fill(parent, ...children);
+  if (at >= 0) all()[Math.min(at, all().length - 1)]?.focus({ preventScroll: true });
 }
 
 /** As {@link fill}, but what stands there already is left alone: what has the focus keeps it, what is pressed stays pressed. */

@@ -39,22 +39,23 @@ export function fields({ changed, done, forget }) {
     name: input('name'),
     kind: input('kind', { list: 'draw-kinds', placeholder: 'keep-out, wet…' }),
     corners: input('corners', { placeholder: 'x,y x,y', inputmode: 'text' }),
-    until: input('until', { placeholder: 'taken away, 18:00, 2h' }),
+    until: input('until', { placeholder: '18:00, 2h', title: 'A time, a while, or a day with its time: 18:00, 2h, 2026-12-24T08:00; else until it is taken away' }),
     how: el('p', { class: 'hint', id: 'draw-how' }),
     size: el('p', { class: 'hint', id: 'draw-size' }),
   };
   const label = (text, field) => el('label', {}, `${text} `, field);
   made.shapeLabel = label('As', made.shape);
   made.kindLabel = label('Kind', made.kind);
+  made.cornersLabel = label('Corners, metres', made.corners);
   const kinds = [...new Set(['keep-out', ...model.map.areas.map(({ kind }) => kind).filter(Boolean)])];
   made.form = el('form', { id: 'draw-form', class: 'card draw-form', 'aria-label': 'Draw on the map', on: { submit: (event) => { event.preventDefault(); done(); } } },
-    label('Draw', made.what), made.shapeLabel, made.how, label('Name', made.name), made.kindLabel, label('Corners, metres', made.corners), made.size, label('Until', made.until),
+    label('Draw', made.what), made.shapeLabel, made.how, label('Name', made.name), made.kindLabel, made.cornersLabel, made.size, label('Until', made.until),
     el('datalist', { id: 'draw-kinds' }, ...kinds.map((kind) => el('option', { value: kind }))),
     el('div', { class: 'buttons' }, el('button', { type: 'submit', id: 'draw-done', text: 'Done' }), el('button', { type: 'button', id: 'draw-discard', text: 'Discard', on: { click: forget } })));
   made.form.addEventListener('keydown', (event) => {
     if (event.key !== 'Escape') return;
     event.stopPropagation();
-    forget();
+    done();
   });
   return made;
 }

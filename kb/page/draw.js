@@ -2,7 +2,7 @@
 
 import { byId, fill } from './dom.js';
 import { fields, HOW, points, rectangleOf, WORDS } from './draw-form.js';
-import { value } from './format.js';
+import { untilWhen, value } from './format.js';
 import { corners, size } from './measure.js';
 import { model } from './model.js';
 import { discard, put } from './pending.js';
@@ -88,9 +88,11 @@ class Tool {
     const what = of.what.value;
     of.shapeLabel.hidden = what === 'place';
     of.kindLabel.hidden = what !== 'area';
+    of.cornersLabel.firstChild.data = `${this.isPlace ? 'Point' : 'Corners'}, metres `;
+    of.corners.placeholder = this.isPlace ? 'x,y' : 'x,y x,y';
     const said = points(of.corners.value);
     this.points = said ?? [];
-    fill(of.how, said ? HOW[this.isPlace ? 'place' : of.shape.value] : 'Corners are numbers: x,y x,y in metres.');
+    fill(of.how, said ? HOW[this.isPlace ? 'place' : of.shape.value] : this.isPlace ? 'A point is two numbers: x,y in metres.' : 'Corners are numbers: x,y x,y in metres.');
     of.size.textContent = this.isPlace ? '' : size(this.isRectangle ? corners(this.points) : this.points);
     this.take();
     this.invalidate();
@@ -131,7 +133,7 @@ class Tool {
 
 function laidWords({ what, name, properties, until }, replaced) {
   const kind = properties.kind ? ` (${value(properties.kind)})` : '';
-  return `${replaced ? 'Moved or changed: ' : 'New on the map: '}${WORDS[what]} ${name ? `“${name}”` : 'without a name'}${kind}${until ? ` until ${until}` : ''}`;
+  return `${replaced ? 'Moved or changed: ' : 'New on the map: '}${WORDS[what]} ${name ? `“${name}”` : 'without a name'}${kind}${untilWhen(until)}`;
 }
 
 // Another name than all that the map has, and all that waits.

@@ -1,8 +1,8 @@
 /** From where to where: the form over the map, its link, and the question to the service. */
 
 import { ApiError, get, path } from './api.js';
-import { byId, el, fill } from './dom.js';
-import { complain } from './notice.js';
+import { button, byId, el, fill } from './dom.js';
+import { complain, said } from './notice.js';
 import { model } from './model.js';
 import { isOpen, remember } from './router.js';
 import { endOf } from './thing.js';
@@ -12,6 +12,8 @@ const MOST_ROOMS = 500;
 const MOST_PLACES = 200;
 
 let asked = 0;
+/** The ends of the way that is on the screen. */
+let shown = null;
 
 /** Asks for the route of the present ends, and gives it; the newest question counts. */
 export async function askRoute() {
@@ -21,14 +23,43 @@ export async function askRoute() {
   if (!start || !goal) return model.set('route', null);
   try {
     const answer = await get(path('/api/route', { start, goal, robot }));
-    if (mine === asked) model.set('route', answer);
+    if (mine !== asked) return undefined;
+    shown = model.ask;
+    model.set('route', answer);
   } catch (error) {
     if (mine !== asked) return undefined;
-    if (error instanceof ApiError && error.status >= 400 && error.status < 500) model.set('route', { error });
+    if (error instanceof ApiError && error.status >= 400 && error.status < 500) refuse(error);
     else if (error.status !== 0) complain(error);
   }
   return undefined;
 }
+
+const UNKNOWN = { 'route/unknown-start': 'start', 'route/unknown-goal': 'goal' };
+const MOST_GUESSES = 3;
+
+/** Says beside the fields what is wrong with them. The way that is on the screen stays, and so does what was typed. */
+function refuse(error) {
+  const wrong = UNKNOWN[error.code];
+  if (wrong) byId(wrong).setAttribute('aria-invalid', 'true');
+  fill(byId('ends-said'), said(error), wrong ? guesses(wrong) : null);
+  if (!shown || shown === model.ask || !model.route || model.route.error) return model.set('route', { error });
+  model.set('ask', shown);
+  if (isOpen('map')) remember('map', shown);
+  return model.set('route', model.route);
+}
+
+/** Places whose names are like what was typed. */
+function guesses(end) {
+  const typed = model.ask[end].toLowerCase();
+  const like = model.map.places.map(({ place }) => place).filter((place) => place.toLowerCase().includes(typed) || typed.includes(place.toLowerCase()));
+  if (!like.length) return null;
+  return el('p', {}, 'Did you mean ', ...like.slice(0, MOST_GUESSES).flatMap((name, at) => [at ? ' or ' : null, button(name, () => {
+    byId(end).focus();
+    return setEnds({ ...typedEnds(), [end]: name });
+  }, { class: 'link' })]), '?');
+}
+
+const typedEnds = () => ({ start: byId('start').value.trim(), goal: byId('goal').value.trim(), robot: model.site.robots.length > 1 ? byId('robot').value : '' });
 
 /** Sets the ends, shows them in the form and in the address, and asks. */
 export function setEnds(ends) {
@@ -37,6 +68,8 @@ export function setEnds(ends) {
   byId('start').value = start;
   byId('goal').value = goal;
   if (robot) byId('robot').value = robot;
+  fill(byId('ends-said'));
+  for (const end of ['start', 'goal']) byId(end).removeAttribute('aria-invalid');
   model.set('whyNot', null);
   model.set('firm', null);
   if (isOpen('map')) remember('map', model.ask);
@@ -88,11 +121,10 @@ function robots() {
 export function startEnds() {
   model.on('map', known);
   model.on('site', robots);
-  const read = () => ({ start: byId('start').value.trim(), goal: byId('goal').value.trim(), robot: model.site.robots.length > 1 ? byId('robot').value : '' });
   byId('ends').addEventListener('submit', (event) => {
     event.preventDefault();
-    setEnds(read());
+    setEnds(typedEnds());
   });
-  byId('robot').addEventListener('change', () => setEnds(read()));
+  byId('robot').addEventListener('change', () => setEnds(typedEnds()));
   byId('swap').addEventListener('click', () => setEnds({ start: model.ask.goal, goal: model.ask.start }));
 }

@@ -1,7 +1,7 @@
 /** Tuning from experience: what robots measured on their ways, and the hardness that fits it best. */
 
 import { call, get, path } from './api.js';
-import { button, byId, el, fill, grid, sure } from './dom.js';
+import { button, byId, el, fill, grid, refill, sure } from './dom.js';
 import { count, number, value } from './format.js';
 import { model } from './model.js';
 import { said } from './notice.js';
@@ -54,7 +54,7 @@ async function load() {
     const rows = fit.cells.map((cell) => [keyName(cell.key), cell.column, value(cell.present), el('b', { text: known(cell) ? number(cell.proposed) : 'cannot be told' }), cell.low === null ? '' : `${number(cell.low)} to ${number(cell.high)}`, String(cell.observations ?? ''), takeButton(cell)]);
     const notes = (fit.notes ?? []).map((text) => el('p', { class: 'hint', text }));
     const pending = model.pending.size ? el('p', {}, `${model.pending.size} taken. `, el('a', { href: '#map', text: 'See on the map what they would change, and save' })) : null;
-    fill(byId('fit'), fit.cells.length ? grid('Proposed values', ['of', 'what', 'now', 'proposed', '95 % between', 'from', ''], rows) : el('p', { class: 'hint', text: 'Nothing to propose yet.' }), ...notes, pending);
+    refill(byId('fit'), fit.cells.length ? grid('Proposed values', ['of', 'what', 'now', 'proposed', '95 % between', 'from', ''], rows) : el('p', { class: 'hint', text: 'Nothing to propose yet.' }), ...notes, pending);
   } catch (error) {
     fill(byId('fit'), said(error));
   }

@@ -2,8 +2,8 @@
 
 import { get, post } from './api.js';
 import { askCard } from './ask.js';
-import { button, byId, el, fill, form, grid } from './dom.js';
-import { moment } from './format.js';
+import { button, byId, el, fill, form, grid, refill } from './dom.js';
+import { moment, untilWhen } from './format.js';
 import { fact as words } from './history-words.js';
 import { isGoing, readLaid, takeAway } from './laid.js';
 import { model } from './model.js';
@@ -34,16 +34,17 @@ function field(label, id, attributes = {}) {
 function toTheTray() {
   const told = fact();
   if (!told) return byId('fact-object').focus();
-  put(`tell:${told.class}:${told.object}:${told.property}`, { words: `Told: ${words({ ...told, key: told.object })}${told.until ? ` until ${told.until}` : ''}`, edits: [{ kind: 'tell', ...told }] });
+  put(`tell:${told.class}:${told.object}:${told.property}`, { words: `Told: ${words({ ...told, key: told.object })}${untilWhen(told.until)}`, edits: [{ kind: 'tell', ...told }] });
   byId('fact-object').value = '';
-  return would.forget();
+  would.forget();
+  return byId('preview-title').focus();
 }
 
 function tellForm() {
   const withTheRest = button('Save it with the rest', toTheTray, { id: 'fact-with-the-rest' });
   const kind = el('select', { id: 'fact-kind' }, ...usualHere().map((name) => el('option', { value: name, text: USUAL[name].text })));
   const made = form({ class: 'fact-form' }, tell, el('label', {}, 'What ', kind), field('Class', 'class', { placeholder: 'ROOMS, AREAS…' }), field('Which', 'object', { required: true }),
-    field('Property', 'property'), field('Value', 'value'), field('Until', 'until', { placeholder: '18:00, 2h, 2026-12-24T08:00' }), field('Why', 'why', { placeholder: 'if you like' }), el('div', { class: 'buttons' }, el('button', { type: 'submit', class: 'strong', text: 'Tell it' }), withTheRest));
+    field('Property', 'property'), field('Value', 'value'), field('Until', 'until', { placeholder: 'taken back, 18:00, 2h', title: 'A time, a while, or a day with its time: 18:00, 2h, 2026-12-24T08:00' }), field('Why', 'why', { placeholder: 'if you like' }), el('div', { class: 'buttons' }, send, withTheRest));
   const choose = () => {
     const usual = USUAL[kind.value];
     for (const name of ['class', 'property', 'value']) {
@@ -67,7 +68,8 @@ function fact() {
   return of && property && object ? { class: of, object, property, value: typed(usual.value ?? read('value')), until: read('until') || undefined } : null;
 }
 
-const would = lookAhead('fact-would', () => fact() && { kind: 'tell', ...fact() });
+const send = el('button', { type: 'submit', class: 'strong', text: 'Tell it' });
+const would = lookAhead('fact-would', () => fact() && { kind: 'tell', ...fact() }, send);
 
 /** What was typed as a value: a number, yes or no, or a text. */
 export function typed(text) {
@@ -91,11 +93,14 @@ async function tell() {
   }
 }
 
+// People know spaces and doorways by their names, which facts about them outlive.
+const called = (fact) => ({ ...fact, key: ['SPACES', 'DOORWAYS'].includes(fact.class) && fact.about.length === 1 ? fact.about[0] : fact.object });
+
 const retractId = ({ id }) => `retract:${id}`;
 
 /** Has a fact taken back with what is saved next; asked once more, it stays. */
 function retracting(fact) {
-  const said = words({ ...fact, key: fact.object });
+  const said = words(called(fact));
   const text = model.pending.has(retractId(fact)) ? 'Keep' : 'Take back…';
   return button(text, () => (model.pending.has(retractId(fact)) ? discard(retractId(fact)) : put(retractId(fact), { words: `No longer told: ${said}`, edits: [{ kind: 'retract', fact: fact.id }] })), { 'aria-label': `${text} ${said}` });
 }
@@ -103,9 +108,9 @@ function retracting(fact) {
 async function load() {
   try {
     const { facts } = await get('/api/facts');
-    const rows = facts.map((fact) => [words({ ...fact, key: fact.object }), fact.until ? moment(fact.until) : 'taken back', STANDING[fact.standing] ?? fact.standing, fact.who ?? '', fact.at ? moment(fact.at) : '', fact.why ?? '',
+    const rows = facts.map((fact) => [words(called(fact)), fact.until ? moment(fact.until) : 'taken back', STANDING[fact.standing] ?? fact.standing, fact.who ?? '', fact.at ? moment(fact.at) : '', fact.why ?? '',
       model.may('tell') ? retracting(fact) : null]);
-    fill(byId('facts-list'), facts.length ? grid('What is told', ['what', 'until', 'standing', 'who', 'when', 'why', ''], rows) : el('p', { class: 'hint', text: 'Nothing is told now.' }));
+    refill(byId('facts-list'), facts.length ? grid('What is told', ['what', 'until', 'standing', 'who', 'when', 'why', ''], rows) : el('p', { class: 'hint', text: 'Nothing is told now.' }));
   } catch (error) {
     fill(byId('facts-list'), said(error));
   }
@@ -113,7 +118,7 @@ async function load() {
   try {
     const laid = await readLaid();
     const rows = laid.map((one) => [one.name, [one.what, one.kind].filter(Boolean).join(', '), one.until ? moment(one.until) : 'taken away', one.who ?? '', one.why ?? '', model.may('tell') ? goes(one) : null]);
-    fill(byId('laid-list'), laid.length ? grid('What lies over the map', ['what', 'kind', 'until', 'who', 'why', ''], rows) : el('p', { class: 'hint', text: 'Nothing lies over the map now.' }));
+    refill(byId('laid-list'), laid.length ? grid('What lies over the map', ['what', 'kind', 'until', 'who', 'why', ''], rows) : el('p', { class: 'hint', text: 'Nothing lies over the map now.' }));
   } catch (error) {
     fill(byId('laid-list'), said(error));
   }

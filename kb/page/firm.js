@@ -50,14 +50,14 @@ const free = (cell) => !cell.low && cell.high === null;
 function span(cell) {
   if (free(cell)) return 'any value';
   if (!cell.low) return `up to ${number(cell.high)}`;
-  return cell.high === null ? `${number(cell.low)} or more` : `between ${number(cell.low)} and ${number(cell.high)}`;
+  return cell.high === null ? `from ${number(cell.low)} up` : `between ${number(cell.low)} and ${number(cell.high)}`;
 }
 
 /** For the cells that are being edited: between which values the way stays the best. Null where nothing is known. */
 export function firmWithin(cells) {
   const found = cells.map((cell) => model.firm?.cells.find((firm) => firm.table === cell.table && firm.key === cell.key && firm.column === cell.column)).filter(Boolean);
   if (!found.length) return null;
-  return el('p', { class: 'firm-within' }, ...found.flatMap((cell) => ['The way below stays the best for ', el('b', { text: `${name(cell)} ${span(cell)}` }), '. ']));
+  return el('p', { class: 'firm-within' }, ...found.flatMap((cell) => ['The way below stays the best ', free(cell) ? 'whatever the value of ' : 'with ', el('b', { text: free(cell) ? name(cell) : `${name(cell)} ${span(cell)}` }), '. ']));
 }
 
 // The bar reaches from 0 to twice the present value, or to what is beyond the interval's end.

@@ -68,6 +68,15 @@ export function moment(text) {
   return at.toDateString() === new Date().toDateString() ? time : `${at.toLocaleDateString('en-GB', { day: 'numeric', month: 'short' })} ${time}`;
 }
 
+const DURATION = /^(\d+(?:\.\d+)?) ?(s|min|m|h|d)$/;
+
+/** How long something holds, as it was typed or as the service has it: ` for 2 h`, ` until 18:00`; nothing where no end is said. */
+export function untilWhen(end) {
+  const [, amount, unit] = DURATION.exec(end ?? '') ?? [];
+  if (amount) return ` for ${amount} ${unit === 'm' ? 'min' : unit}`;
+  return end ? ` until ${end.includes('T') ? moment(end) : end}` : '';
+}
+
 /** Words joined: `a, b and c`. */
 export function list(words) {
   return words.length < 2 ? words.join('') : `${words.slice(0, -1).join(', ')} and ${words.at(-1)}`;

@@ -1,7 +1,7 @@
 /** Who changed what, when and why; what was done in one go is one entry, taken back in one go, once it was seen what that does. */
 
 import { get, path } from './api.js';
-import { button, byId, el, fill, grid } from './dom.js';
+import { button, byId, el, fill, grid, refill } from './dom.js';
 import { moment } from './format.js';
 import { difference } from './difference.js';
 import { isFile, words } from './history-words.js';
@@ -9,6 +9,7 @@ import { model } from './model.js';
 import { said } from './notice.js';
 import { refresh } from './refresh.js';
 import { isOpen, onTab } from './router.js';
+import { focusSaved, showSaved } from './saved.js';
 import { takeBackSeen } from './undo.js';
 
 const PAGE = 50;
@@ -49,6 +50,8 @@ async function takeBack(edit, what) {
   try {
     const answer = await takeBackSeen([edit], what);
     if (!answer) return;
+    showSaved('Taken back.', []);
+    focusSaved();
     await refresh(answer.generation);
     await load();
   } catch (error) {
@@ -63,7 +66,7 @@ async function load() {
     const none = el('p', { class: 'card', text: 'Nothing was edited yet. What is edited is kept here, with who, when and why.' });
     const undoing = new Set(edits.map(({ undone }) => undone));
     const rows = together(edits.slice(0, shown)).map((entries) => row(entries, undoing));
-    fill(byId('history'), edits.length ? el('div', { class: 'card' }, grid('History', ['when', 'what', ''], rows), more) : none);
+    refill(byId('history'), edits.length ? el('div', { class: 'card' }, grid('History', ['when', 'what', ''], rows), more) : none);
   } catch (error) {
     fill(byId('history'), said(error));
   }

@@ -113,7 +113,7 @@ function layerChoice() {
   const { layers } = model.map;
   const options = layers.flatMap((layer, index) => (ofRobot(index) ? [el('option', { value: String(index), text: `only rooms of ${layerName(layer)}` })] : []));
   const before = byId('layer').value;
-  fill(byId('layer'), el('option', { value: EASIEST, text: 'the easiest state at each spot' }), ...options);
+  fill(byId('layer'), el('option', { value: EASIEST, text: 'easiest state at each spot' }), ...options);
   if (options.some((option) => option.value === before)) byId('layer').value = before;
   byId('layer-choice').hidden = options.length < 2;
   byId('pieces-choice').hidden = !roomsWeigh();

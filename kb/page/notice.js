@@ -1,6 +1,6 @@
 /** Banners over the page, and what went wrong, in words. */
 
-import { button, byId, el } from './dom.js';
+import { byId, el, shut } from './dom.js';
 
 const banners = new Map();
 
@@ -35,5 +35,5 @@ export const where = (problem) => (problem.file ? `${problem.file}${problem.line
 /** Shows an error for as long as it is not closed. */
 export function complain(error) {
   if (error.name === 'AbortError') return;
-  banner('error', [said(error), button('Close', () => banner('error'), { class: 'quiet' })], 'bad');
+  banner('error', [said(error), shut('this', () => banner('error'))], 'bad');
 }

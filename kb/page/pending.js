@@ -56,6 +56,11 @@ const KEPT = 'adit-pending';
 // Nobody holds the pen any more.
 const putDown = ([id, item]) => [id, item.shape ? { ...item, shape: { ...item.shape, open: false } } : item];
 
+/** Takes edits up again, beside what waits by now. */
+export function restore(items) {
+  model.set('pending', new Map([...[...items].map(putDown), ...model.pending]));
+}
+
 /** Keeps it over a reload of the page, for this site and this tab of the browser. */
 export function keepPending() {
   try {

@@ -2,7 +2,7 @@
 
 import { why, whyNot } from './answers.js';
 import { close, closings } from './closing.js';
-import { button, byId, el, fill } from './dom.js';
+import { button, byId, el, fill, shut } from './dom.js';
 import { redraw } from './draw.js';
 import { list } from './format.js';
 import { describe, isGoing, names, takeAway } from './laid.js';
@@ -42,7 +42,7 @@ export function openPopover(thing, [px, py]) {
     !solid && model.ask.start && model.ask.goal ? act(`Why not through ${named}?`, () => whyNot(named)) : null,
     ...(model.may('tell') ? (thing.laid ?? []).flatMap((of) => laid(of, act)) : []),
     ...(model.may('tell') ? closings(thing).map(({ text: label, edit, sides }) => act(label, () => close(edit, label, sides))) : []),
-    button('Close', closePopover, { class: 'quiet' }),
+    shut('this', closePopover),
   );
   box.hidden = false;
   place(box, px, py);

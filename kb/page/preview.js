@@ -2,17 +2,17 @@
 
 import { post } from './api.js';
 import { difference } from './difference.js';
-import { button, byId, debounced, el, fill, keep } from './dom.js';
+import { button, byId, debounced, el, fill, focusStays, keep } from './dom.js';
 import { drafts, files, forget, loadFiles, overtaken, rebase } from './drafts.js';
 import { reopen } from './draw.js';
 import { cost, count, list, number, value } from './format.js';
 import { firmWithin, pauseFirm, resumeFirm } from './firm.js';
 import { model } from './model.js';
 import { said } from './notice.js';
-import { cells, discard, edits, keyName } from './pending.js';
+import { cells, discard, edits, keyName, restore } from './pending.js';
 import { refresh } from './refresh.js';
-import { address } from './router.js';
-import { andRules, focusSaved, showSaved } from './saved.js';
+import { address, isOpen } from './router.js';
+import { andRules, focusSaved, forgetSaved, showSaved } from './saved.js';
 import { isOn } from './tunings.js';
 
 const WAIT = 120;
@@ -70,14 +70,17 @@ const isWrong = (item) => `${item.words ?? `${keyName(item.key)} ${item.column}`
 
 const TESTS_SHOWN = 5;
 
+/** That all tests of the rules pass, in words. */
+export const allPass = (total) => (total === 1 ? 'The one test of the rules passes.' : `All ${count(total, 'test')} of the rules pass.`);
+
 /** What becomes of the rules: their tests, and which of them decide about more or less than now. */
 function rulesTried(rules) {
   if (!rules) return null;
   const total = rules.passed + rules.failed;
-  const word = rules.failed ? `${rules.failed} of ${count(total, 'test')} of the rules would fail, so this cannot be saved.` : total ? `All ${count(total, 'test')} of the rules pass.` : 'There is no test of the rules.';
+  const word = rules.failed ? `${rules.failed} of ${count(total, 'test')} of the rules would fail, so this cannot be saved.` : total ? allPass(total) : 'No tests of the rules were run: there are none.';
   const failures = rules.failures.slice(0, TESTS_SHOWN).map((of) => el('li', {}, of.line ? el('a', { href: address('rules', { file: of.file, line: String(of.line) }), text: `${of.file}, line ${of.line}` }) : null, `${of.line ? ': ' : ''}${of.message}`));
   const more = rules.failures.length > TESTS_SHOWN ? el('li', { text: `and ${rules.failures.length - TESTS_SHOWN} more` }) : null;
-  return el('div', { id: 'preview-rules' }, el('p', { class: rules.failed ? 'wrong' : 'right', text: word }), failures.length ? el('ul', { class: 'plain problems' }, ...failures, more) : null, deciding(rules.decides));
+  return el('div', { id: 'preview-rules' }, el('p', { class: rules.failed ? 'wrong' : total ? 'right' : 'hint', text: word }), failures.length ? el('ul', { class: 'plain problems' }, ...failures, more) : null, deciding(rules.decides));
 }
 
 function deciding(decides) {
@@ -99,11 +102,11 @@ export function summary(preview) {
   const { rooms, doors, routes } = preview;
   if (model.site.layout_kind) {
     // there are no rooms that could change
-  } else if (model.site.rooms_mode === 'none') return [preview.conclusions.length ? `${count(preview.conclusions.length, 'conclusion')} would be otherwise.` : 'Nothing would be concluded otherwise.'];
+  } else if (model.site.rooms_mode === 'none') return [preview.conclusions.length ? `${count(preview.conclusions.length, 'conclusion')} would change.` : 'No conclusion would change.'];
   // Where the floor is cut anew, a room is no longer the one that it was: there is none to count.
   if (preview.layout_changed) parts.push('The floor would be cut into rooms anew.');
-  else if (doors.changed || rooms.changed) parts.push(`${list([doors.changed ? count(doors.changed, 'door') : null, rooms.changed ? count(rooms.changed, 'room') : null].filter(Boolean))} would weigh otherwise.`);
-  else if (!model.site.layout_kind && !preview.closings?.length) parts.push('No room and no door would weigh otherwise.');
+  else if (doors.changed || rooms.changed) parts.push(`${list([doors.changed ? count(doors.changed, 'door') : null, rooms.changed ? count(rooms.changed, 'room') : null].filter(Boolean))} would change.`);
+  else if (!model.site.layout_kind && !preview.closings?.length) parts.push('No room or door would change.');
   // Where there are too many to compare while somebody types, the service says how many it did.
   const compared = routes?.compared ?? routes?.total ?? 0;
   if (routes?.total && !compared) parts.push(`${count(routes.total, 'route')} between places are too many to compare while you type.`);
@@ -129,7 +132,7 @@ export function thisRoute(preview) {
       : Math.abs(was - becomes) < 5e-7 * Math.max(1, was) ? `The way that you look at stays at ${cost(was)}.`
         : null;
   if (text) return el('p', { text });
-  return el('p', {}, 'The way that you look at: ', el('s', { text: cost(was) }), ' ', el('b', { text: cost(becomes) }), leadsElsewhere(before, after) ? (model.site.layout_kind ? ', another way' : ', another way (hatched in amber)') : ', the same way');
+  return el('p', {}, 'The way that you look at: ', el('s', { text: cost(was) }), ' ', el('b', { text: cost(becomes) }), leadsElsewhere(before, after) ? (model.site.layout_kind || !isOpen('map') ? ', another way' : ', another way (hatched in amber)') : ', the same way');
 }
 
 const through = (route) => route.steps.map(({ place, action }) => `${place} ${action}`).join();
@@ -164,13 +167,36 @@ function makeCard() {
     who: el('input', { id: 'save-who', placeholder: 'for the history', autocomplete: 'name', value: localStorage.getItem('adit-who') ?? '' }),
     save: el('button', { type: 'button', id: 'save', class: 'strong', 'aria-keyshortcuts': 'Control+Enter', on: { click: () => saveAll(isPreviewed()) } }),
     unseen: el('button', { type: 'button', id: 'save-unseen', text: 'Save without a preview', on: { click: () => saveAll(isPreviewless()) } }),
-    discard: button('Discard', () => { conflicts = new Map(); discard(); }, { id: 'discard' }),
+    discard: button('Discard', discardAll, { id: 'discard' }),
     hint: el('span', { class: 'hint', text: 'Ctrl-Enter saves, too.' }),
   };
   made.whose = el('label', {}, 'Your name ', made.who);
+  // Escape takes back what was typed here, never what waits.
+  let before = '';
+  made.why.addEventListener('focus', () => { before = made.why.value; });
+  made.why.addEventListener('keydown', (event) => { if (event.key === 'Escape') made.why.value = before; });
   made.who.addEventListener('input', () => localStorage.setItem('adit-who', made.who.value.trim()));
   fill(byId('preview'), made.typed, made.told, made.clashes, el('label', {}, 'Why ', made.why), made.whose, el('div', { class: 'buttons' }, made.save, made.unseen, made.discard, made.hint));
   return made;
+}
+
+function discardAll() {
+  const gone = model.pending;
+  if (!gone.size) return;
+  conflicts = new Map();
+  discard();
+  showSaved(`Discarded: ${count(gone.size, 'change')}.`, [], { text: 'Undo', act: () => {
+    forgetSaved();
+    restore(gone);
+    byId('preview-title').focus();
+  } });
+  focusSaved();
+}
+
+/** Takes one edit back; who does it by keys goes on in the tray. */
+function leave(id) {
+  discard(id);
+  if (model.pending.size) (card.typed.querySelector('button:not([hidden])') ?? byId('preview-title')).focus();
 }
 
 function told() {
@@ -180,7 +206,7 @@ function told() {
   return [...model.pending.values()].every((item) => item.wrong) ? [] : [el('p', { class: 'hint', text: 'Looking what would change…' })];
 }
 
-const listItem = (id) => el('li', {}, el('span'), button('Leave it', () => discard(id), { class: 'link' }), button('Change', () => reopen(id, model.pending.get(id)), { class: 'link' }));
+const listItem = (id) => el('li', {}, el('span'), button('Leave it', () => leave(id), { class: 'link' }), button('Change', () => reopen(id, model.pending.get(id)), { class: 'link' }));
 
 // One item stays one element: a button that is replaced while somebody presses it does nothing.
 function listItems() {
@@ -265,6 +291,7 @@ async function saveAll(isKnown) {
   // Whether more routes would change is not worth the wait any more.
   stop?.abort();
   const hadFocus = byId('preview-card').contains(document.activeElement);
+  const stays = focusStays();
   show();
   const sent = new Map(model.pending);
   const wanted = edits(true);
@@ -282,7 +309,7 @@ async function saveAll(isKnown) {
     if (!model.pending.size) model.preview = null;
     card.why.value = '';
     showSaved(`Saved: ${list([...sent.values()].map(inOneWord))}.${andRules([answer])}`, [answer.done.id]);
-    if (hadFocus) focusSaved();
+    if (hadFocus && stays()) focusSaved();
     // A tuning that is off changes nothing but itself.
     await refresh(answer.generation === model.weights?.generation ? undefined : answer.generation);
   } catch (error) {
@@ -304,6 +331,8 @@ async function saveAll(isKnown) {
 /** Ctrl-Enter: saves what the preview on the screen is of; a preview that is there and not in sight comes into it first. */
 function saveBySign(event) {
   if (event.key !== 'Enter' || !(event.ctrlKey || event.metaKey)) return;
+  // A query is run by it, and a question that is open comes first.
+  if (event.defaultPrevented || document.querySelector('dialog[open]')) return;
   event.preventDefault();
   if (event.repeat || !isPreviewed()) return;
   if (isInSight()) saveAll(true);
@@ -317,7 +346,16 @@ function isInSight() {
   return top >= least && bottom <= Math.min(window.innerHeight, card.save.parentElement.getBoundingClientRect().top + 1);
 }
 
-/** Previews edits while they are typed; Ctrl-Enter saves them, Escape discards them all. */
+// What is edited is not to lie under the tray, which grows while its preview comes.
+function keepInSight() {
+  const tray = byId('preview-card').getBoundingClientRect();
+  document.documentElement.style.setProperty('--tray', `${tray.height}px`);
+  if (!byId('tables').contains(document.activeElement)) return;
+  const { top, bottom } = document.activeElement.getBoundingClientRect();
+  if (bottom > tray.top && top < tray.bottom) document.activeElement.scrollIntoView({ block: 'nearest' });
+}
+
+/** Previews edits while they are typed; Ctrl-Enter saves them, wherever the focus is. */
 export function startPreview() {
   model.on('pending', () => {
     failed = null;
@@ -333,12 +371,10 @@ export function startPreview() {
   });
   model.on('preview firm', show);
   model.on('route generation', () => { if (model.pending.size) ask(); });
-  byId('preview-card').addEventListener('keydown', (event) => {
-    if (event.key === 'Escape') discard();
-  });
-  for (const id of ['map-card', 'tables', 'preview-card', 'rules', 'facts', 'experience']) byId(id).addEventListener('keydown', saveBySign);
+  document.addEventListener('keydown', saveBySign);
+  new ResizeObserver(keepInSight).observe(byId('preview-card'));
   model.on('generation changed problems', follow);
-  window.addEventListener('hashchange', () => setTimeout(place));
+  window.addEventListener('hashchange', () => setTimeout(show));
   place();
   follow();
 }

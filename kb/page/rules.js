@@ -8,6 +8,7 @@ import { count } from './format.js';
 import { showGrids, startGrids } from './grids.js';
 import { model } from './model.js';
 import { said } from './notice.js';
+import { allPass } from './preview.js';
 import { isOpen, onTab, remember } from './router.js';
 import { startVersions, showVersions } from './versions.js';
 import { startVocabulary } from './vocabulary.js';
@@ -56,7 +57,7 @@ function result(problems, tests, error) {
     ? button(`${problem.file && !problem.file.endsWith(open) ? `${problem.file}, ` : ''}line ${problem.line}`, () => jump(problem), { class: 'link' }) : null, `${problem.line ? ': ' : ''}${problem.message}`, problem.help ? el('span', { class: 'hint', text: ` ${problem.help}` }) : null));
   const word = error && !items.length ? [said(error)]
     : problems.some((problem) => problem.severity !== 'warning') ? [el('p', { class: 'wrong', role: 'alert', text: `This would not work: ${count(problems.length, 'problem')}.` })]
-      : tests ? [el('p', { class: tests.failed ? 'wrong' : 'right', role: 'status', text: tests.failed ? `${count(tests.failed, 'test')} of the rules would fail; ${tests.passed} pass.` : `Looks right; all ${count(tests.passed, 'test')} of the rules pass.` })] : [];
+      : tests ? [el('p', { class: tests.failed ? 'wrong' : 'right', role: 'status', text: tests.failed ? `${count(tests.failed, 'test')} of the rules would fail; ${tests.passed} pass.` : tests.passed ? `Looks right. ${allPass(tests.passed)}` : 'Looks right.' })] : [];
   fill(byId('rules-result'), ...word, items.length ? el('ul', { class: 'plain problems' }, ...items) : null);
 }
 

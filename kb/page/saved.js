@@ -1,6 +1,6 @@
 /** The word after a save, with its undo. */
 
-import { button, byId, el, fill } from './dom.js';
+import { button, byId, el, fill, shut } from './dom.js';
 import { said } from './notice.js';
 import { refresh } from './refresh.js';
 import { takeBackSeen } from './undo.js';
@@ -14,8 +14,14 @@ import { takeBackSeen } from './undo.js';
 export function showSaved(text, edits, other) {
   const undo = edits.length ? button('Undo…', () => undoAll(edits, text.replace(/^Saved: /, '').replace(/\.$/, '')), { id: 'undo', class: 'strong' }) : null;
   const more = other ? button(other.text, other.act) : null;
-  fill(byId('saved'), el('div', { class: 'card done' }, el('p', { text, id: 'saved-said', tabindex: '-1' }), undo, more, button('Close', () => fill(byId('saved')), { class: 'quiet' })));
+  fill(byId('saved'), el('div', { class: 'card done' }, el('p', { text, id: 'saved-said', tabindex: '-1' }), undo, more, shut('this', () => {
+    forgetSaved();
+    byId('content').focus({ preventScroll: true });
+  })));
 }
+
+/** Takes the word away. */
+export const forgetSaved = () => fill(byId('saved'));
 
 /** What rules that react did of it, after the word about it. */
 export const andRules = (answers) => {

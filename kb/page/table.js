@@ -4,11 +4,13 @@ import { field, isOfAll, parse, titleOf } from './cells.js';
 import { byId, el, fill, keep } from './dom.js';
 import { exact, number, value as inWords } from './format.js';
 import { model } from './model.js';
-import { cellId, discard, editCell, keyName } from './pending.js';
+import { cellId, discard, editCell, keyName, put } from './pending.js';
 import { isGoing, newRow, newRows, rowForms } from './rows.js';
 import { inTuning } from './tunings.js';
 
 const MOST_ROWS = 200;
+/** Units that a column is named after. */
+const UNITS = { s: 'seconds', J: 'joules', m: 'metres' };
 
 /** What is shown: by table, its structure as text and its cells. */
 const views = new Map();
@@ -37,7 +39,7 @@ function build(table, open) {
   const cells = new Map();
   const results = [];
   const concluded = isOfAll(table.table) ? [] : table.concluded ?? [];
-  const head = el('tr', {}, ...columns.map(({ name, unit, kind, key }) => el('th', { scope: 'col', class: key ? null : kind }, name.replaceAll('_', ' '), unit ? el('small', { text: ` ${unit}` }) : null)), ...concluded.map(({ property }) => el('th', { scope: 'col', class: 'concluded', text: property.replaceAll('_', ' ') })));
+  const head = el('tr', {}, ...columns.map(({ name, unit, kind, key }) => el('th', { scope: 'col', class: key ? null : kind }, name.replaceAll('_', ' '), unit && UNITS[unit] !== name ? el('small', { text: ` ${unit}` }) : null)), ...concluded.map(({ property }) => el('th', { scope: 'col', class: 'concluded', text: property.replaceAll('_', ' ') })));
   const wanted = rowsOf(table);
   const rows = wanted.slice(0, MOST_ROWS).map(({ key, at }) => el('tr', { 'data-key': key }, ...columns.map((column) => {
     if (column.key) return el('th', { scope: 'row', text: String(table.rows[at][column.index]) });
@@ -65,14 +67,25 @@ function makeCell(table, key, column, value) {
   const force = el('span', { class: 'force', hidden: true });
   const input = field(column, label, value);
   const cell = { td: el('td', { class: column.kind }, struck, input, note, force), input, struck, note, force, value };
+  // What waited when somebody came here, unless it was saved or discarded since.
+  let before;
+  const goBack = () => {
+    const id = waitsAs(table.table, key, column.name);
+    return before && model.pending.has(id) ? put(id, before) : discard(id);
+  };
   const read = () => {
+    if (!model.pending.has(waitsAs(table.table, key, column.name))) before = undefined;
     // What a tuning no longer says is as the tables have it.
     const typed = parse(input.value, model.editIn ? { ...column, required: false } : column);
     editCell({ table: table.table, key, column: column.name, old: views.get(table.table).cells.get(cellId(table.table, key, column.name)).value, ...typed, ...(model.editIn ? { tuning: model.editIn } : {}) });
   };
   input.addEventListener('input', read);
+  input.addEventListener('focus', () => {
+    const waiting = model.pending.get(waitsAs(table.table, key, column.name));
+    before = waiting?.wrong ? undefined : waiting;
+  });
   input.addEventListener('keydown', (event) => {
-    if (event.key === 'Escape') discard(waitsAs(table.table, key, column.name));
+    if (event.key === 'Escape') goBack();
     if (event.key === 'Enter' && !event.ctrlKey && !event.metaKey && !event.isComposing) goDown(event);
   });
   return cell;

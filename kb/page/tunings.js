@@ -1,7 +1,7 @@
 /** Named tunings: which are on, switched with what is saved next, and in which of them cells are edited. */
 
 import { get } from './api.js';
-import { byId, el, fill } from './dom.js';
+import { byId, el, fill, refill } from './dom.js';
 import { model } from './model.js';
 import { discard, put } from './pending.js';
 
@@ -24,10 +24,7 @@ function box(of) {
 
 function header() {
   byId('tunings').hidden = !model.tunings.length;
-  // Whoever has just pressed one of them goes on from there.
-  const at = [...byId('tunings').querySelectorAll('input')].indexOf(document.activeElement);
-  fill(byId('tunings'), el('span', { text: 'Tunings' }), ...model.tunings.map(box));
-  if (at >= 0) byId('tunings').querySelectorAll('input')[at]?.focus();
+  refill(byId('tunings'), el('span', { text: 'Tunings' }), ...model.tunings.map(box));
 }
 
 /** Whether a tuning is on, or will be with what is saved next. */

@@ -2,11 +2,12 @@
 
 import { post } from './api.js';
 import { sure } from './dom.js';
-import { summary } from './preview.js';
+import { count } from './format.js';
+import { allPass, summary } from './preview.js';
 
 function testsOf({ rules }) {
   if (!rules) return '';
-  return rules.failed ? `${rules.failed} tests of the rules would fail.` : `All ${rules.passed} tests of the rules pass.`;
+  return rules.failed ? `${count(rules.failed, 'test')} of the rules would fail.` : rules.passed ? allPass(rules.passed) : '';
 }
 
 /**
@@ -15,7 +16,7 @@ function testsOf({ rules }) {
  */
 export async function takeBackSeen(edits, what) {
   const undo = [...edits].reverse().map((edit) => ({ kind: 'undo', edit }));
-  const would = await post('/api/preview', { edits: undo });
-  if (!await sure(`Take back “${what}”? ${[...summary(would), testsOf(would)].join(' ')}`, 'Take it back')) return null;
+  const question = post('/api/preview', { edits: undo }).then((would) => `Take back “${what}”? ${[...summary(would), testsOf(would)].join(' ')}`);
+  if (!await sure(question, 'Take it back')) return null;
   return post('/api/edits', { edit: undo.length === 1 ? undo[0] : { kind: 'together', edits: undo } });
 }

@@ -2,6 +2,7 @@
 
 import { post } from './api.js';
 import { debounced, el, fill } from './dom.js';
+import { untilWhen } from './format.js';
 import { model } from './model.js';
 import { said } from './notice.js';
 import { summary, thisRoute } from './preview.js';
@@ -12,23 +13,34 @@ const WAIT = 150;
  * Looks ahead: `look` whenever something is typed, `now` at once. `isReady` says whether what is on the screen is of the edit as it stands,
  * and looks ahead where it is not, without holding anybody up; `forget` takes it off the screen.
  * @param {() => Object|null} wish the edit, or null where it is not whole
+ * @param {HTMLButtonElement} make makes the edit; it can be pressed once it was on the screen what that would change
  */
-export function lookAhead(id, wish) {
-  const node = el('div', { id, role: 'status' });
+export function lookAhead(id, wish, make) {
+  const node = el('div', { id, class: 'would', role: 'status' });
   let [asked, seen] = ['', ''];
   const show = (text, ...parts) => {
     fill(node, ...parts);
     [asked, seen] = ['', text];
+    wait(false);
+    // What has come must not push the form out of sight.
+    const card = node.closest('.card');
+    if (card?.contains(document.activeElement)) card.scrollIntoView({ block: 'nearest' });
   };
+  function wait(isAwaited) {
+    node.setAttribute('aria-busy', String(isAwaited));
+    make.disabled = isAwaited;
+    if (isAwaited && !node.firstChild) fill(node, el('p', { class: 'hint', text: 'Looking what would change…' }));
+  }
   async function now() {
     const edit = wish();
     if (!edit) return show('');
     const text = JSON.stringify(edit);
     asked = text;
+    wait(true);
     const { start, goal, robot } = model.ask;
     try {
       const answer = await post('/api/preview', { edits: [edit], ...(start && goal ? { start, goal } : {}), ...(robot ? { robot } : {}) });
-      if (asked === text) show(text, ...(answer.closings ?? []).map((closing) => el('p', { text: `Then: ${closing}.` })), el('p', { text: summary(answer).join(' ') }), thisRoute(answer));
+      if (asked === text) show(text, ...(answer.closings ?? []).map((closing) => el('p', { text: `Then: ${closing}${edit.until ? untilWhen(edit.until) : ''}.` })), el('p', { text: summary(answer).join(' ') }), thisRoute(answer));
     } catch (error) {
       // What cannot be looked at in time may be made all the same; what is refused may not.
       if (asked === text) show(error.status >= 500 ? text : '', said(error));
@@ -40,5 +52,11 @@ export function lookAhead(id, wish) {
     if (seen !== text && asked !== text) now();
     return seen === text;
   }
-  return { node, now, look: debounced(now, WAIT), isReady, forget: () => show('') };
+  const later = debounced(now, WAIT);
+  function look() {
+    [asked, seen] = ['', ''];
+    wait(Boolean(wish()));
+    later();
+  }
+  return { node, now, look, isReady, forget: () => show('') };
 }

@@ -10,6 +10,7 @@ use super::tune::apply;
 use crate::edit::Edit;
 use crate::edit::Tell;
 use crate::error::{Code, Error, Result};
+use crate::graph::Building;
 use crate::knowledge::KnowledgeBase;
 use crate::words::cells::{object, text};
 use crate::words::number::number;
@@ -82,7 +83,8 @@ pub fn run(args: &TellArgs) -> Result<()> {
 
 /// Prints what is told: the rows of the view `facts_told`.
 fn list(knowledge: &KnowledgeBase, as_json: bool) -> Result<()> {
-    let facts = Store::open_read_only(knowledge.database())?.snapshot(|tx| tx.read_table("facts_told"))?;
+    let (facts, building) = Store::open_read_only(knowledge.database())?
+        .snapshot(|tx| Ok::<_, Error>((tx.read_table("facts_told")?, Building::read(tx)?)))?;
     let rows = facts.columns.first().map_or(0, |column| column.values.len());
     if as_json {
         let names = || facts.columns.iter().map(|column| &column.name);
@@ -101,6 +103,8 @@ fn list(knowledge: &KnowledgeBase, as_json: bool) -> Result<()> {
         let [class, object, property, value] =
             ["class", "object", "property", "value"].map(|name| at(name, row));
         let about: Vec<String> = serde_json::from_str(&at("objects", row)).unwrap_or_default();
+        let name = |key: &String| building.called(&class, key).unwrap_or_else(|| key.clone());
+        let about: Vec<String> = about.iter().map(name).collect();
         let about = if about.is_empty() { at("state", row) } else { about.join(", ") };
         let what = format!("{class} {} {property} = {value}", point(&object));
         vec![at("id", row), what, about, at("until", row), at("who", row), at("why", row), at("at", row)]

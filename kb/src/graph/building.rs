@@ -174,6 +174,16 @@ impl Building {
         self.spaces.iter().find(is_called).or_else(|| self.spaces.iter().find(is_numbered))
     }
 
+    /// What people call an object of a class with a number: a space or a doorway.
+    pub fn called(&self, class: &str, key: &str) -> Option<String> {
+        let number: i64 = key.parse().ok()?;
+        match class {
+            "SPACES" => self.space(number),
+            "DOORWAYS" => self.doorways.iter().find(|doorway| doorway.doorway == number).map(Self::name),
+            _ => None,
+        }
+    }
+
     /// What people call spaces and doorways.
     pub fn names(&self) -> impl Iterator<Item = String> {
         let spaces = self.spaces.iter().filter_map(|space| self.space(space.space));

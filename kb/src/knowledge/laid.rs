@@ -18,7 +18,8 @@ pub struct Laid(Vec<Item>);
 struct Item {
     /// What people call it: ``the area `wet spot` ``.
     name: String,
-    text: String,
+    /// What is amiss where it cannot be read.
+    text: std::result::Result<String, String>,
 }
 
 impl Laid {
@@ -27,7 +28,7 @@ impl Laid {
         let now = stored(clock.now());
         let rows = tx.laid()?.into_iter();
         let rows = rows.filter(|row| row.until.as_ref().is_none_or(|until| *until > now));
-        rows.map(|row| Item::of(&row)).collect::<Result<_>>().map(Self)
+        Ok(Self(rows.map(|row| Item::of(&row)).collect()))
     }
 
     pub fn is_empty(&self) -> bool {
@@ -61,16 +62,15 @@ impl Laid {
 }
 
 impl Item {
-    fn of(row: &Row) -> Result<Self> {
-        let name = format!("the {} `{}`", row.what, row.name);
-        let unreadable = |what: &str| {
-            let help = format!("`adit lift SITE \"{}\"` takes it away", row.name);
-            Error::said(Code::LaidUnreadable, format!("{name} of the table `laid` has {what}"), Some(help))
-        };
-        let corners: Vec<[f64; 2]> =
-            serde_json::from_str(&row.outline).map_err(|_| unreadable("no list of corners [[x,y],…]"))?;
-        let further: Map<String, Value> =
-            serde_json::from_str(&row.properties).map_err(|_| unreadable("no object of properties"))?;
+    fn of(row: &Row) -> Self {
+        Self { name: format!("the {} `{}`", row.what, row.name), text: Self::text_of(row) }
+    }
+
+    fn text_of(row: &Row) -> std::result::Result<String, String> {
+        let corners: Vec<[f64; 2]> = serde_json::from_str(&row.outline)
+            .map_err(|_| "its outline is no list of corners [[x,y],…]".to_owned())?;
+        let further: Map<String, Value> = serde_json::from_str(&row.properties)
+            .map_err(|_| "its properties are no JSON object".to_owned())?;
         let mut item = toml::Table::new();
         if row.what != "obstacle" {
             item.insert("name".to_owned(), row.name.as_str().into());
@@ -87,24 +87,22 @@ impl Item {
                 Value::Bool(truth) => truth.into(),
                 Value::String(text) => text.into(),
                 Value::Number(number) => number.as_f64().unwrap_or(f64::NAN).into(),
-                _ => {
-                    return Err(unreadable(&format!(
-                        "a `{property}` that is no number, text or truth value"
-                    )));
-                }
+                _ => return Err(format!("its `{property}` is no number, text or truth value")),
             };
             item.insert(property, value);
         }
-        Ok(Self { name, text: format!("[[{}]]\n{item}", row.what) })
+        Ok(format!("[[{}]]\n{item}", row.what))
     }
 
     fn lay(&self, world: &mut World) -> Result<()> {
-        let laid = Overlay::from_toml(&self.name, &self.text).and_then(|overlay| overlay.lay_over(world));
+        let unreadable = |what: &String| Error::said(Code::LaidUnreadable, what.clone(), None);
+        let text = self.text.as_ref().map_err(unreadable)?;
+        let laid = Overlay::from_toml(&self.name, text).and_then(|overlay| overlay.lay_over(world));
         laid.map(drop).map_err(|errors| Error::all(errors.problems))
     }
 }
 
 /// Whether something may be laid over a map, over which others lie already.
 pub fn check(row: &Row, world: &mut World) -> Result<()> {
-    Item::of(row)?.lay(world)
+    Item::of(row).lay(world)
 }

@@ -15,7 +15,7 @@ use super::contrast::without::Without;
 use super::contrast::{Beside, Choice, Routes, Turn, is_best};
 use super::hindered::{Driven, Hindered};
 use crate::answer;
-use crate::error::Result;
+use crate::error::{Code, Error, Result};
 use crate::graph::SiteGraph;
 use crate::live::Live;
 use crate::state::State;
@@ -121,6 +121,12 @@ impl State {
         at: Option<&str>,
         robot: Option<&str>,
     ) -> Result<WhyWay> {
+        if self.courses.is_some() {
+            let what = "of a map that is not cut into rooms, why is said of what its routes lead over";
+            let help =
+                "say which: `adit why SITE \"lane 8\"`, a junction, a channel, as `adit route` calls it";
+            return Err(Error::said(Code::CourseUnfit, what, Some(help.to_owned())));
+        }
         self.site.site().needs_rooms()?;
         let robot = answer::pick(&self.robots(), robot)?;
         let meant = at.map(|at| self.meant(at, &robot)).transpose()?;

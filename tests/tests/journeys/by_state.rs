@@ -122,7 +122,8 @@ fn any_two_points_are_answered_though_no_start_is_kept_there() {
     let kept = site.adit("route", &["dock", "ward 6", "--json"]).expecting(0).json();
     let points = site.adit("route", &["1.2,1.2", "42,24", "--json"]).expecting(0).json();
     let cost = |answer: &serde_json::Value| answer["cost"].as_f64().unwrap();
-    assert!((cost(&points) - cost(&kept)).abs() < 1e-9 * cost(&kept));
+    // where shapes are changed is slid to the best place, from where either search left it
+    assert!((cost(&points) - cost(&kept)).abs() < 1e-7 * cost(&kept));
     let states = |answer: &serde_json::Value| -> Vec<String> {
         let waypoints = answer["waypoints"].as_array().unwrap().iter();
         waypoints.map(|waypoint| waypoint["state"].as_str().unwrap().to_owned()).collect()

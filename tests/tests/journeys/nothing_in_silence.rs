@@ -209,3 +209,15 @@ fn that_no_state_fits_anywhere_any_more_is_said() {
     let said = wide("STAND");
     assert!(said.contains("no room is left: no state fits anywhere on the map"), "{said}");
 }
+
+#[test]
+fn what_another_program_drew_amiss_counts_for_nothing_and_the_rest_goes_on() {
+    let site = two_rooms().built();
+    let values = "'area', '[[1,1],[2,1],[2,2]]', '{\"closed\":null}', 'gis', '', '2026-01-01T00:00:00Z'";
+    site.sqlite3(&format!(
+        "INSERT INTO laid (name, what, outline, properties, who, why, at) VALUES ('spill', {values})"
+    ));
+    let note = "the area `spill`, laid over the map, counts for nothing: its `closed` is no number, text or truth value";
+    site.adit("build", &[]).expecting(0).complains(&[note]);
+    site.adit("route", &["home", "window"]).expect_status(0);
+}

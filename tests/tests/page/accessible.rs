@@ -48,7 +48,7 @@ async fn every_tab(screen: Screen) {
             match name {
                 "map" => {
                     browser.type_into(&crate::hardness_of("SQUAT"), "7").await;
-                    browser.says("#preview-summary", "otherwise").await;
+                    browser.says("#preview-summary", "would change").await;
                     browser.press("#route .run-more", "Why?").await;
                     browser.find("#why-card .reasons").await;
                     browser.run("document.querySelector('.row-forms').open = true").await;

@@ -52,3 +52,16 @@ async fn a_click_on_the_map_sets_the_ends() {
     browser.goto(&shared).await;
     assert_eq!(browser.text("#route-title .total").await, cost);
 }
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_place_that_is_not_known_is_said_beside_its_field_and_the_way_stays() {
+    let (_site, _service, browser) = at_a_desk("clinic", "#map?start=dock&goal=chapel").await;
+    browser.says("#route-title", "dock to chapel").await;
+    browser.type_into("#goal", "pharm\u{e007}").await;
+    browser.says("#ends-said", "pharm").await;
+    browser.says("#route-title", "dock to chapel").await;
+    assert_eq!(browser.value("document.getElementById('goal').ariaInvalid").await, "true");
+    browser.press("#ends-said", "pharmacy").await;
+    browser.says("#route-title", "dock to pharmacy").await;
+    assert_eq!(browser.value("document.getElementById('ends-said').innerText").await, "");
+}

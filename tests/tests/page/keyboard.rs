@@ -53,14 +53,14 @@ async fn a_way_is_asked_a_cell_tuned_and_taken_back_by_keys_alone() {
     tab_to(&browser, "e.getAttribute('aria-label') === 'hardness of SQUAT'").await;
     press(&browser, "\u{e009}a\u{e000}3").await;
     browser.says("#preview", "SQUAT hardness 4 → 3").await;
-    browser.says("#preview-summary", "otherwise").await;
+    browser.says("#preview-summary", "would change").await;
     tab_to(&browser, "e.id === 'save'").await;
     press(&browser, ENTER).await;
     browser.says("#saved", "4 → 3").await;
     browser.run("document.getElementById('content').focus()").await;
     tab_to(&browser, "e.id === 'undo'").await;
     press(&browser, ENTER).await;
-    browser.says("dialog", "would weigh otherwise").await;
+    browser.says("dialog", "would change.").await;
     tab_to(&browser, "e.textContent === 'Take it back'").await;
     press(&browser, ENTER).await;
     browser.says("#saved", "Taken back").await;

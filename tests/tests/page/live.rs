@@ -35,7 +35,7 @@ async fn a_door_that_a_robot_closes_sends_the_way_round() {
     browser.says("#facts-list", "stuck").await;
     browser.press("#facts-list", "Take back").await;
     browser.says("#preview", "No longer told").await;
-    browser.says("#preview-summary", "otherwise").await;
+    browser.says("#preview-summary", "would change").await;
     browser.press("#preview", "Save").await;
     browser.says("#facts-list", "Nothing is told").await;
     browser.click("nav a[href='#map']").await;
@@ -141,7 +141,7 @@ async fn a_page_left_open_over_a_restart_recovers_by_itself() {
     let address = service.address.clone();
     let browser = Browser::open(&service.page("#map?start=f&goal=e"), Screen::Desktop).await;
     browser.type_into(&hardness_of("SQUAT"), "5").await;
-    browser.says("#preview-summary", "otherwise").await;
+    browser.says("#preview-summary", "would change").await;
     drop(service);
     browser.says("[data-banner='connection']", "trying again").await;
     browser.screenshot("connection-lost").await;

@@ -249,7 +249,7 @@ async fn pictures() {
             browser.click("nav a[href='#facts']").await;
             browser.says("#facts-list", "Nothing").await;
             browser.type_into("#fact-object", "3").await;
-            browser.says("#fact-would", "otherwise").await;
+            browser.says("#fact-would", "would change.").await;
             browser.screenshot(&format!("look-{size}-{theme}-facts")).await;
             browser.run("document.getElementById('discard').click()").await;
             browser.click("nav a[href='#history']").await;

@@ -44,7 +44,7 @@ async fn a_price_is_tuned_with_what_follows_beside_it() {
     browser.screenshot("shop").await;
     let price = "[data-table='products'] [data-key='tea'] input[aria-label^='price']";
     browser.type_into(price, "5").await;
-    browser.says("#preview-summary", "4 conclusions would be otherwise").await;
+    browser.says("#preview-summary", "4 conclusions would change").await;
     browser.says("#preview", "orders 2: total").await;
     browser.screenshot("shop-preview").await;
     browser.click("#save").await;

@@ -12,7 +12,7 @@ async fn a_cell_is_previewed_saved_and_taken_back() {
 
     browser.type_into(&hardness_of("SQUAT"), "7").await;
     browser.says("#preview", "SQUAT hardness 4 → 7").await;
-    browser.says("#preview-summary", "rooms would weigh otherwise").await;
+    browser.says("#preview-summary", "rooms would change").await;
     browser.says("#preview", "another way").await;
     browser
         .until(
@@ -96,7 +96,7 @@ async fn of_two_experts_the_later_one_is_told_and_nothing_is_lost() {
     bert.type_into(&cell, "6").await;
     bert.says("#preview", "SQUAT hardness 4 → 6").await;
     anna.type_into(&cell, "3").await;
-    anna.says("#preview-summary", "otherwise").await;
+    anna.says("#preview-summary", "would change").await;
     anna.click("#save").await;
     anna.says("#saved", "4 → 3").await;
     bert.says("[data-key='robot/SQUAT']", "meanwhile 3").await;

@@ -17,7 +17,7 @@ async fn a_tuning_is_begun_filled_and_switched_on_and_cells_say_what_counts() {
     browser.type_into("#new-tuning", "night\u{e007}").await;
     browser.type_into(&hardness_of("SQUAT"), "9").await;
     browser.says("#preview", "SQUAT hardness 4 → 9 in the tuning “night”, which is off").await;
-    browser.says("#preview-summary", "No room and no door would weigh otherwise").await;
+    browser.says("#preview-summary", "No room or door would change").await;
     browser.until("!document.getElementById('save').disabled", "it may be saved").await;
     browser.click("#save").await;
     browser.says("#saved", "in the tuning “night”").await;
@@ -26,7 +26,7 @@ async fn a_tuning_is_begun_filled_and_switched_on_and_cells_say_what_counts() {
     // it is in the header from now on, and is switched there
     browser.click("#tunings input").await;
     browser.says("#preview", "Tuning “night” on").await;
-    browser.says("#preview-summary", "rooms would weigh otherwise").await;
+    browser.says("#preview-summary", "rooms would change").await;
     assert_eq!(site.sqlite3("SELECT count(*) FROM active_tunings"), ["0"], "nothing is saved yet");
     browser.until("!document.getElementById('save').disabled", "it may be saved").await;
     browser.click("#save").await;
@@ -46,7 +46,7 @@ async fn a_tuning_is_begun_filled_and_switched_on_and_cells_say_what_counts() {
     browser.screenshot("tunings").await;
     browser.type_into(&hardness_of("SQUAT"), "5").await;
     browser.says("#preview", "SQUAT hardness 4 → 5").await;
-    browser.says("#preview-summary", "No room and no door would weigh otherwise").await;
+    browser.says("#preview-summary", "No room or door would change").await;
     browser.press("#preview", "Discard").await;
     edit_in("night").await;
     browser.until(&format!("{cell} === '9'"), "the value of the tuning").await;

@@ -13,6 +13,7 @@ use crate::rules::own_rules;
 use crate::{at_a_desk, hardness_of};
 
 const ENTER: &str = "\u{e007}";
+const ESCAPE: &str = "\u{e00c}";
 
 const SQUAT: &str = "SELECT hardness FROM robots WHERE state = 'SQUAT'";
 const EDITS: &str = "SELECT count(*) FROM history";
@@ -50,7 +51,7 @@ async fn enter_goes_down_a_row_and_saves_nothing() {
     let next = below(&browser, "SQUAT").await;
     type_over(&browser, &hardness_of("SQUAT"), &format!("3{ENTER}")).await;
     assert_eq!(focused(&browser).await, format!("hardness of {next}"));
-    browser.says("#preview-summary", "otherwise").await;
+    browser.says("#preview-summary", "would change").await;
     for _ in 0..8 {
         press(&browser, ENTER).await;
     }
@@ -161,7 +162,7 @@ async fn what_was_refused_is_said_until_it_is_edited_again() {
     browser.says("#preview", "nothing was changed").await;
     drop(lock);
     assert_eq!(before.join().unwrap().0, 200);
-    browser.says("#preview-summary", "otherwise").await;
+    browser.says("#preview-summary", "would change").await;
     until_it_may_be_saved(&browser).await;
     browser.says("#preview", "nothing was changed").await;
     assert_eq!(site.sqlite3(SQUAT), ["4.0"]);
@@ -200,7 +201,7 @@ async fn a_form_that_is_sent_twice_tells_once() {
     browser.type_into("#fact-object", "3").await;
     // what is not seen yet is not told
     browser.run("document.querySelector('.fact-form').requestSubmit()").await;
-    browser.says("#fact-would", "otherwise").await;
+    browser.says("#fact-would", "would change.").await;
     assert_eq!(service.ask("GET", "/api/facts", None).1["facts"], json!([]));
     browser
         .run("const form = document.querySelector('.fact-form'); form.requestSubmit(); form.requestSubmit()")
@@ -211,7 +212,7 @@ async fn a_form_that_is_sent_twice_tells_once() {
     browser.type_into("#outline-search", "door 5").await;
     browser.press("#outline-list", "Show").await;
     browser.press("#popover", "Close door 5").await;
-    browser.says("#close-preview", "otherwise").await;
+    browser.says("#close-preview", "would change.").await;
     browser.run("const form = document.querySelector('#tell-card form'); form.requestSubmit(); form.requestSubmit()").await;
     browser.says("#saved", "done").await;
     tokio::time::sleep(Duration::from_millis(500)).await;
@@ -335,4 +336,129 @@ async fn keys_at_random_save_nothing_that_was_not_previewed() {
         "SELECT count(*) FROM history WHERE id NOT IN (SELECT undone FROM history WHERE undone IS NOT NULL)",
     );
     assert_eq!(kept, [values.to_string()], "{sent:#?}");
+}
+
+/// What Escape threw away was all that waited, in *Why* too.
+#[tokio::test(flavor = "multi_thread")]
+async fn escape_throws_nothing_away_and_what_is_discarded_can_be_brought_back() {
+    let (_site, _service, browser) = at_a_desk("paper", "#map?start=f&goal=e").await;
+    for (state, value) in [("SQUAT", "3"), ("STAND", "2"), ("LIE-FACE-DOWN", "9")] {
+        type_over(&browser, &hardness_of(state), value).await;
+    }
+    browser.says("#save", "Save all 3").await;
+    browser.click("#save-why").await;
+    press(&browser, "knees").await;
+    press(&browser, ESCAPE).await;
+    assert_eq!(browser.value("document.getElementById('save-why').value").await, "");
+    browser.run("document.getElementById('discard').focus()").await;
+    press(&browser, ESCAPE).await;
+    browser.says("#save", "Save all 3").await;
+
+    // a cell has again what waited when somebody came to it
+    type_over(&browser, &hardness_of("SQUAT"), "8").await;
+    browser.says("#preview", "SQUAT hardness 4 → 8").await;
+    press(&browser, ESCAPE).await;
+    browser.says("#preview", "SQUAT hardness 4 → 3").await;
+    browser.says("#save", "Save all 3").await;
+
+    browser.press("#preview", "Discard").await;
+    browser.says("#saved", "Discarded: 3 changes").await;
+    assert_eq!(focused(&browser).await, "saved-said");
+    browser.press("#saved", "Undo").await;
+    browser.says("#save", "Save all 3").await;
+    browser.says("#preview", "SQUAT hardness 4 → 3").await;
+    assert_eq!(focused(&browser).await, "preview-title");
+}
+
+/// What is drawn waits, too: Escape puts the pen away.
+#[tokio::test(flavor = "multi_thread")]
+async fn escape_puts_the_pen_away_and_keeps_what_was_drawn() {
+    let (_site, _service, browser) = at_a_desk("paper", "#map?start=f&goal=e").await;
+    browser.click("#draw").await;
+    browser.type_into("#draw-name", "wet floor").await;
+    browser.type_into("#draw-corners", "1,1 2,2").await;
+    press(&browser, ESCAPE).await;
+    browser.until("!document.getElementById('draw-form')", "the pen is put away").await;
+    browser.says("#preview", "an area “wet floor”").await;
+}
+
+/// Holds answers of the service back until `window.goOn` is called.
+fn held_back(path: &str) -> String {
+    format!(
+        "const real = window.fetch; const gate = new Promise((open) => {{ window.goOn = open; }});
+         window.fetch = async (at, how) => {{ if (String(at).startsWith({path:?})) await gate; return real(at, how); }}"
+    )
+}
+
+/// Digits that were typed meanwhile went astray.
+#[tokio::test(flavor = "multi_thread")]
+async fn a_late_answer_takes_the_focus_from_nobody_who_has_gone_on() {
+    let (_site, _service, browser) = at_a_desk("paper", "#map?start=f&goal=e").await;
+    browser.click("#outline summary").await;
+    browser.type_into("#outline-search", "room a").await;
+    browser.run(&held_back("/api/why-not")).await;
+    browser.press("#outline-list", "Show").await;
+    browser.press("#popover", "Why not through room a?").await;
+    browser.says("#why-not-card", "Looking").await;
+    browser.click(&hardness_of("SQUAT")).await;
+    let scrolled = browser.value("window.scrollY").await;
+    browser.run("window.goOn()").await;
+    browser.until("document.querySelector('#why-not-card .sentence')", "the answer").await;
+    assert_eq!(focused(&browser).await, "hardness of SQUAT");
+    assert_eq!(browser.value("window.scrollY").await, scrolled);
+
+    // who waits for it goes on with it
+    browser.press("#outline-list", "Show").await;
+    browser.press("#popover", "Why not through room a?").await;
+    browser.until("document.querySelector('#why-not-card .sentence')", "the answer").await;
+    let is_there = "document.activeElement.closest('#why-not-card') !== null";
+    assert_eq!(browser.value(is_there).await, true);
+}
+
+/// A press that came before the preview was lost, and the button looked as if it could be pressed.
+#[tokio::test(flavor = "multi_thread")]
+async fn a_closing_cannot_be_pressed_before_its_preview_and_is_said_where_one_goes_on() {
+    let (site, _service, browser) = at_a_desk("paper", "#map?start=f&goal=e").await;
+    browser.click("#outline summary").await;
+    browser.type_into("#outline-search", "door 5").await;
+    browser.press("#outline-list", "Show").await;
+    browser.press("#popover", "Close door 5").await;
+    browser.says("#close-preview", "would change.").await;
+    browser.run(&held_back("/api/preview")).await;
+    browser.click("#close-until").await;
+    press(&browser, "2h").await;
+    let send = "document.querySelector('#tell-card [type=submit]')";
+    assert_eq!(browser.value(&format!("{send}.disabled")).await, true);
+    assert_eq!(browser.value("document.getElementById('close-preview').ariaBusy").await, "true");
+    press(&browser, ENTER).await;
+    tokio::time::sleep(Duration::from_millis(400)).await;
+    assert_eq!(site.sqlite3(EDITS), ["0"]);
+    browser.run("window.goOn()").await;
+    browser.until(&format!("!{send}.disabled"), "the preview is on the screen").await;
+    browser.press("#tell-card", "Close door 5").await;
+    browser.says("#saved", "done").await;
+    assert_eq!(focused(&browser).await, "saved-said");
+    let is_seen = "(({ top, bottom }) => top >= 0 && bottom <= innerHeight)(document.getElementById('saved').getBoundingClientRect())";
+    assert_eq!(browser.value(is_seen).await, true);
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn ctrl_enter_saves_wherever_the_focus_is() {
+    let (site, service, browser) = at_a_desk("paper", "#map?start=f&goal=e").await;
+    let tuned = json!({ "edit": { "kind": "set_in_tuning", "tuning": "night", "table": "robots", "key": "SQUAT", "column": "hardness", "value": 9 } });
+    let (status, answer) = service.ask("POST", "/api/edits", Some(&tuned));
+    assert_eq!(status, 200, "{answer}");
+    browser.client.refresh().await.unwrap();
+    browser.click("#tunings input").await;
+    until_it_may_be_saved(&browser).await;
+    assert_eq!(browser.value("document.activeElement.closest('#tunings') !== null").await, true);
+    browser.ctrl_enter();
+    browser.says("#saved", "Tuning “night” on").await;
+    assert_eq!(site.sqlite3("SELECT tuning FROM active_tunings"), ["night"]);
+
+    browser.click("#tunings input").await;
+    until_it_may_be_saved(&browser).await;
+    browser.run("document.activeElement.blur()").await;
+    browser.ctrl_enter();
+    browser.says("#saved", "Tuning “night” off").await;
 }

@@ -8,6 +8,7 @@ use super::edits::{self, Edited, Scalar, Wish};
 use super::extract::Site;
 use super::extract::{Asked, Body, Named};
 use crate::edit::Edit;
+use crate::graph::Building;
 use crate::serve::fault::Answered;
 use crate::serve::gate::require;
 use crate::serve::role::{Caller, Role};
@@ -24,6 +25,8 @@ struct FactOf {
     class: String,
     /// The object: its name, or `x,y`.
     object: String,
+    /// The objects that it is about now, as people call them.
+    about: Vec<String>,
     property: String,
     #[schema(value_type = serde_json::Value)]
     value: serde_json::Value,
@@ -51,7 +54,14 @@ pub async fn list(site: Site) -> Answered<Json<FactsAnswer>> {
                 _ => "holds",
             }
         };
+        let building = Building::read(tx)?;
+        let about = |fact: &adit_db::told::Told| -> Vec<String> {
+            let standing = standings.iter().find(|standing| standing.told == fact.id);
+            let keys = standing.into_iter().flat_map(|standing| &standing.keys);
+            keys.map(|key| building.called(&fact.class, key).unwrap_or_else(|| key.clone())).collect()
+        };
         let facts = tx.facts_told()?.into_iter().map(|fact| FactOf {
+            about: about(&fact),
             standing: standing(fact.id),
             id: fact.id,
             class: fact.class,
