@@ -35,6 +35,7 @@ mod symbols;
 mod table;
 mod told;
 mod value;
+mod zero;
 
 pub use changes::{Changes, ClassChanges};
 pub use class::{Class, ClassError};

@@ -11,6 +11,7 @@ use crate::plan::clause::ClausePlan;
 use crate::plan::node::{Arithmetic, Comparison, Function, Node};
 use crate::symbols::{Symbol, Symbols};
 use crate::value::{Cell, Truth, Type};
+use crate::zero::{negated, product, written};
 
 /// Which bindings of a batch count; `None` is all. Only interpreted parts look at it.
 pub(crate) type Mask<'m> = Option<&'m [bool]>;
@@ -162,11 +163,6 @@ pub(crate) fn compare_cells(comparison: Comparison, a: Cell, b: Cell, symbols: &
     }
 }
 
-/// A number in a text: zero has no sign there.
-pub(crate) fn written(number: f64) -> String {
-    (number + 0.0).to_string()
-}
-
 /// Texts and numbers one after the other; `None` where one is unknown, or the whole is too long.
 pub(crate) fn concat(a: Cell, b: Cell, symbols: &RefCell<Symbols>) -> Option<Symbol> {
     let mut symbols = symbols.borrow_mut();
@@ -217,15 +213,14 @@ fn arithmetic(operator: Arithmetic, a: &Lane<f64>, b: &Lane<f64>) -> Lane<'stati
     loops!(Add Subtract Multiply Divide Remainder Power Min Max Hypot)
 }
 
-/// Two numbers to one; what is unknown stays unknown. Whole numbers have no zero below zero, so no product is one
-/// either.
+/// Two numbers to one; what is unknown stays unknown.
 #[inline]
 pub(crate) fn compute(operator: Arithmetic, a: f64, b: f64) -> f64 {
     let known = |value: f64| if a.is_nan() || b.is_nan() { f64::NAN } else { value };
     match operator {
         Arithmetic::Add => a + b,
         Arithmetic::Subtract => a - b,
-        Arithmetic::Multiply => a * b + 0.0,
+        Arithmetic::Multiply => product(a, b),
         Arithmetic::Divide => a / b,
         Arithmetic::Remainder => a % b,
         // An unknown exponent stays unknown, though 1 to the power of anything is 1.
@@ -239,7 +234,7 @@ pub(crate) fn compute(operator: Arithmetic, a: f64, b: f64) -> f64 {
 #[inline]
 pub(crate) fn apply(function: Function, a: f64) -> f64 {
     match function {
-        Function::Negate => 0.0 - a,
+        Function::Negate => negated(a),
         Function::Abs => a.abs(),
         Function::Sqrt => a.sqrt(),
         Function::Floor => a.floor(),

@@ -15,8 +15,7 @@ use super::limits::{
     MAX_ARRAY, MAX_CALL_LEVELS, MAX_DEPTHS, MAX_FUNCTIONS, MAX_MAP, MAX_STEPS, MAX_TEXT, MAX_VARIABLES,
 };
 use super::{sizes, syntax};
-use crate::machine::evaluate::{apply, compute, written};
-use crate::plan::node::{Arithmetic, Function};
+use crate::zero::{negated, product, written};
 
 thread_local! {
     static DEADLINE: Cell<Option<Instant>> = const { Cell::new(None) };
@@ -142,10 +141,10 @@ fn register_functions(engine: &mut Engine) {
         .register_fn("sleep", |_: f64| -> Refused { Err("a rule may not sleep".into()) })
         .register_fn("/", |a: i64, b: i64| a as f64 / b as f64)
         .register_fn("%", |a: i64, b: i64| a as f64 % b as f64)
-        .register_fn("*", |a: f64, b: f64| compute(Arithmetic::Multiply, a, b))
-        .register_fn("*", |a: i64, b: f64| compute(Arithmetic::Multiply, a as f64, b))
-        .register_fn("*", |a: f64, b: i64| compute(Arithmetic::Multiply, a, b as f64))
-        .register_fn("-", |a: f64| apply(Function::Negate, a))
+        .register_fn("*", product)
+        .register_fn("*", |a: i64, b: f64| product(a as f64, b))
+        .register_fn("*", |a: f64, b: i64| product(a, b as f64))
+        .register_fn("-", negated)
         .register_fn("**", |a: i64, b: i64| (a as f64).powf(b as f64))
         // rhai's own multiplies whole powers out, and differs in the last bit.
         .register_fn("**", |a: f64, b: i64| a.powf(b as f64))
