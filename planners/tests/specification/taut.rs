@@ -248,7 +248,10 @@ proptest! {
             let cost = all[room.index()].as_ref().map(|way| way.cost);
             prop_assert_eq!(cost.is_some(), alone.is_some(), "{:?}", graph[room].outline);
             if let (Some(cost), Some(alone)) = (cost, alone) {
-                let is_same = (cost / alone - 1.0).abs() < 5e-2 || (cost - alone).abs() < 1e-9;
+                // where a state dips into a gap lie rooms of some centimetres: of ways to all rooms fewer are pulled tight
+                let bounds = graph[room].outline.bounds();
+                let most = if bounds.dx().max(bounds.dy()) < 0.1 { 1e-1 } else { 5e-2 };
+                let is_same = (cost / alone - 1.0).abs() < most || (cost - alone).abs() < 1e-9;
                 prop_assert!(is_same, "{cost} and {alone}");
             }
         }
