@@ -1,5 +1,7 @@
 //! What people say and may not mean is answered, and what is as it was is not told anew.
 
+use std::process::Command;
+
 use adit_tests::TestSite;
 
 fn clinic() -> TestSite {
@@ -214,9 +216,11 @@ fn that_no_state_fits_anywhere_any_more_is_said() {
 fn what_another_program_drew_amiss_counts_for_nothing_and_the_rest_goes_on() {
     let site = two_rooms().built();
     let values = "'area', '[[1,1],[2,1],[2,2]]', '{\"closed\":null}', 'gis', '', '2026-01-01T00:00:00Z'";
-    site.sqlite3(&format!(
+    let insert = format!(
         "INSERT INTO laid (name, what, outline, properties, who, why, at) VALUES ('spill', {values})"
-    ));
+    );
+    let drawn = Command::new("sqlite3").arg(site.path().join("site.db")).arg(insert).status();
+    assert!(drawn.expect("sqlite3 runs").success());
     let note = "the area `spill`, laid over the map, counts for nothing: its `closed` is no number, text or truth value";
     site.adit("build", &[]).expecting(0).complains(&[note]);
     site.adit("route", &["home", "window"]).expect_status(0);
