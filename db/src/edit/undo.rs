@@ -17,7 +17,7 @@ pub async fn undo(connection: &mut SqliteConnection, id: i64, author: &Author) -
     }
     // a value that is what the edit made it may be so again by later ones, each of which then holds on to what this one left
     if let Some(later) = history::later(connection, &edit).await? {
-        let reason = format!("edit {later} came later and is of the same; take that one back first");
+        let reason = format!("edit {later} changed the same later; take that one back first");
         return Err(conflict(reason));
     }
     let done = inverse(connection, &edit, author).await?;

@@ -115,7 +115,7 @@ fn an_undo_never_overwrites_a_later_edit() {
     let refused = store.led().transaction(|tx| tx.undo(first.id, &author())).unwrap_err();
     assert_eq!(
         refused.to_string(),
-        "edit 1 cannot be taken back: edit 2 came later and is of the same; take that one back first"
+        "edit 1 cannot be taken back: edit 2 changed the same later; take that one back first"
     );
     let again = store.led().transaction(|tx| {
         tx.undo(2, &author())?;

@@ -138,11 +138,15 @@ impl Lay {
     /// Refuses a name that means something else to whoever closes or avoids by names.
     fn check_name(&self, tx: &mut Tx<'_>) -> Result<()> {
         let (name, building) = (self.name.trim(), Building::read(tx)?);
+        // doors have numbers painted on them, and a place gives its space that name
+        let is_place = self.what == Thing::Place;
         let other = if place::split(name).is_some() {
             "a point".to_owned()
         } else if let Some(doorway) = building.doorway_named(name) {
             format!("the doorway at {:.2}, {:.2}", doorway.x, doorway.y)
-        } else if let Some(space) = building.space_named(name).filter(|space| space.called.is_none()) {
+        } else if let Some(space) =
+            building.space_named(name).filter(|space| space.called.is_none() && !is_place)
+        {
             format!("the {} at {:.2}, {:.2}", space.kind.as_deref().unwrap_or("space"), space.x, space.y)
         } else {
             return Ok(());

@@ -166,12 +166,14 @@ impl Building {
     /// The space of this name: what rules call it, or its number behind what it is: `corridor 15`, `space 15`. By those it is found
     /// again when the map calls it otherwise.
     pub fn space_named(&self, name: &str) -> Option<&Space> {
+        let is_of_map = |space: &&Space| space.called.as_deref() == Some(name);
         let is_called = |space: &&Space| self.space(space.space).as_deref() == Some(name);
         let is_numbered = |space: &&Space| {
             let kinds = [Some("space"), space.kind.as_deref()];
             kinds.into_iter().flatten().any(|kind| is_numbered(name, kind, space.space))
         };
-        self.spaces.iter().find(is_called).or_else(|| self.spaces.iter().find(is_numbered))
+        let find = |is_meant: &dyn Fn(&&Space) -> bool| self.spaces.iter().find(is_meant);
+        find(&is_of_map).or_else(|| find(&is_called)).or_else(|| find(&is_numbered))
     }
 
     /// What people call an object of a class with a number: a space or a doorway.

@@ -150,8 +150,9 @@ pub fn unknown_kinds(rules: &RuleBase, world: &World) -> Vec<String> {
         .flat_map(|rule| rule.place().0.text().split(['"', '`']).skip(1).step_by(2))
         .filter(|text| !text.contains(['\n', ' ']))
         .collect();
-    let is_read =
-        |area: &Area| area.further.iter().any(|(name, _)| read.contains(&format!("{AREAS}.{name}")));
+    let is_of_use =
+        |property: &String| read.contains(property) || READ_BY_ROUTES.contains(&property.as_str());
+    let is_read = |area: &Area| area.further.iter().any(|(name, _)| is_of_use(&format!("{AREAS}.{name}")));
     let mut unknown: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
     for area in world.areas.iter().filter(|area| !is_read(area)) {
         if let Some(kind) = area.kind.as_deref().filter(|kind| !said.contains(kind)) {
@@ -166,7 +167,7 @@ pub fn unknown_kinds(rules: &RuleBase, world: &World) -> Vec<String> {
         let help = did_you_mean(kind, said.iter().copied());
         let help = help.map_or_else(String::new, |help| format!(" ({help})"));
         format!(
-            "no rule speaks of areas of the kind `{kind}`, as `{}`{more} is: robots pass there as elsewhere{help}",
+            "no rule speaks of areas of the kind `{kind}`, as `{}`{more} is: robots pass there as elsewhere, unless asked to avoid it{help}",
             names[0]
         )
     };

@@ -128,7 +128,7 @@ fn an_edit_is_taken_back_before_those_that_came_before_it_of_the_same_cell() {
     for hardness in ["3", "5", "3"] {
         site.adit("tune", &["robots", "SIDE", "hardness", hardness]).expect_status(0);
     }
-    let refused = ["edit 1 cannot be taken back: edit 3 came later and is of the same"];
+    let refused = ["edit 1 cannot be taken back: edit 3 changed the same later"];
     site.adit("undo", &["1"]).expecting(2).complains(&refused);
     for _ in 0..3 {
         site.adit("undo", &[]).expect_status(0);
@@ -176,6 +176,9 @@ fn a_kind_of_areas_that_no_rule_knows_is_noted() {
     lay("one", "keep_out").complains(&["no rule speaks of areas of the kind `keep_out`, as `one` is"]);
     let said = lay("two", "keep-out").stderr;
     assert!(!said.contains("kind `keep-out`"), "{said}");
+    let one_way = ["area", "three", "1,5 2,6", "--kind", "lane", "--with", "heading=90"];
+    let said = site.adit("lay", &one_way).expecting(0).stderr;
+    assert!(!said.contains("kind `lane`"), "{said}");
 }
 
 #[test]
