@@ -82,15 +82,20 @@ impl Floor {
         self.node.0.id()
     }
 
-    /// The waypoints that `adit route --json` prints.
-    pub fn waypoints(&self, start: &str, goal: &str) -> Vec<[f64; 2]> {
+    /// What `adit route --json` prints.
+    pub fn route(&self, start: &str, goal: &str) -> Value {
         let ran = Command::new(adit())
             .arg("route")
             .arg(self.site.path())
             .args([start, goal, "--json"])
             .output()
             .unwrap();
-        let route: Value = serde_json::from_slice(&ran.stdout).unwrap();
+        serde_json::from_slice(&ran.stdout).unwrap()
+    }
+
+    /// The waypoints of the route that `adit route --json` prints.
+    pub fn waypoints(&self, start: &str, goal: &str) -> Vec<[f64; 2]> {
+        let route = self.route(start, goal);
         let points = route["waypoints"].as_array().unwrap();
         points.iter().map(|point| [&point["x"], &point["y"]].map(|v| v.as_f64().unwrap())).collect()
     }
