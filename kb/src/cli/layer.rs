@@ -9,7 +9,7 @@ use serde_json::{Map, Value};
 
 use super::args::SiteArgs;
 use super::build::open;
-use super::output::{json, line};
+use super::output::{json, line, remark};
 use crate::error::{Code, Error, Result};
 use crate::site::whole;
 use crate::words::number::counted;
@@ -23,12 +23,18 @@ pub fn run(site: &SiteArgs, name: &str, to: &Path) -> Result<()> {
     }
     let knowledge = open(site)?;
     knowledge.spare_own(to)?;
-    let (layer, rows) = Store::open_read_only(knowledge.database())?.snapshot(|tx| -> Result<_> {
+    let (layer, rows, others) = Store::open_read_only(knowledge.database())?.snapshot(|tx| -> Result<_> {
         let layers = tx.layers()?;
         let is_meant = |layer: &&Layer| layer.name == name || layer.table == name;
         let layer = layers.iter().find(is_meant).ok_or_else(|| unknown(name, &layers))?.clone();
         let rows = tx.read_table(&layer.table)?;
-        Ok((layer, rows))
+        let mut others = Vec::new();
+        for other in layers.into_iter().filter(|_| rows_of(&rows) == 0) {
+            if rows_of(&tx.read_table(&other.table)?) > 0 {
+                others.push(other.name);
+            }
+        }
+        Ok((layer, rows, others))
     })?;
     let features = features(&layer, &rows)?;
     let count = features.len();
@@ -39,6 +45,10 @@ pub fn run(site: &SiteArgs, name: &str, to: &Path) -> Result<()> {
         return json(&serde_json::json!({"file": to, "features": count}));
     }
     line(&format!("{}: {} of {}", to.display(), counted(count, "feature"), layer.name));
+    if count == 0 {
+        let others = if others.is_empty() { "nothing at all".to_owned() } else { others.join(", ") };
+        remark(&format!("the map of the site gives no {}; it gives {others}", layer.name));
+    }
     Ok(())
 }
 
@@ -51,7 +61,6 @@ fn unknown(name: &str, layers: &[Layer]) -> Error {
 
 /// The rows as features of GeoJSON; one without a shape has `null`, as GeoJSON wants it.
 fn features(layer: &Layer, rows: &Relation) -> Result<Vec<Value>> {
-    let count = rows.columns.first().map_or(0, |column| column.values.len());
     let feature = |row: usize| {
         let (mut properties, mut geometry) = (Map::new(), Value::Null);
         for column in &rows.columns {
@@ -66,7 +75,11 @@ fn features(layer: &Layer, rows: &Relation) -> Result<Vec<Value>> {
         }
         Ok(serde_json::json!({"type": "Feature", "geometry": geometry, "properties": properties}))
     };
-    (0..count).map(feature).collect()
+    (0..rows_of(rows)).map(feature).collect()
+}
+
+fn rows_of(relation: &Relation) -> usize {
+    relation.columns.first().map_or(0, |column| column.values.len())
 }
 
 fn unreadable(table: &str, row: usize) -> Error {

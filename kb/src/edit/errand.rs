@@ -7,7 +7,7 @@ use adit_engine::RuleBase;
 use adit_planners::facts::Column;
 
 use super::{Close, Edit};
-use crate::answer::{self, Answer, Basis};
+use crate::answer::{self, Answer, Basis, Status};
 use crate::error::Result;
 use crate::knowledge::KnowledgeBase;
 use crate::knowledge::tables;
@@ -75,8 +75,13 @@ impl State {
         let state = self.on_errand(&[], errand, robot)?;
         let robot = answer::pick(&state.robots(), robot)?;
         let blank = Answer::blank(&robot, start, goals, state.generation);
-        Basis { ends_in: errand.ends_in(), start_facing: errand.start_facing, ..state.basis() }
-            .search(goals, blank)
+        let basis = Basis { ends_in: errand.ends_in(), start_facing: errand.start_facing, ..state.basis() };
+        let mut answer = basis.search(goals, blank)?;
+        let is_avoiding = answer.status == Status::NoRoute && !errand.avoid.is_empty();
+        if let Some(reason) = answer.reason.as_mut().filter(|_| is_avoiding) {
+            reason.push_str(&format!("; this errand keeps away from {}", errand.avoid.join(", ")));
+        }
+        Ok(answer)
     }
 
     /// The best route to a goal on an errand after edits, which nobody keeps; where there is none, nothing is said of why.

@@ -11,7 +11,7 @@ use super::hierarchy::Hierarchy;
 use super::mesh::{Exit, Exits};
 use super::parts::{DoorIndex, Passing, RoomIndex, RouteDoor, RouteRoom, Walking};
 use super::turning::Turning;
-use crate::geometry::Segment;
+use crate::geometry::{Rect, Segment};
 use crate::search::Csr;
 
 #[derive(Clone, Debug)]
@@ -59,14 +59,35 @@ impl RouteGraph {
     /// Lets ways turn back at some doors, where rooms weigh their metres: elsewhere none is better for it, and none is looked for.
     pub fn turn_back_at(&mut self, doors: impl IntoIterator<Item = DoorIndex>) {
         self.turns = doors.into_iter().map(DoorIndex::index).collect();
+        self.turning.take();
         self.cut.take();
+    }
+
+    /// The rooms from which no way leads to others but by doors at which ways turn back, and what these doors lie within; `None` where
+    /// ways turn back nowhere.
+    pub(super) fn leads_through(&self, to: impl Iterator<Item = RoomIndex>) -> Option<(FixedBitSet, Rect)> {
+        let turns = self.turns.ones().map(|door| self.doors[door].crossing.bounds());
+        let within =
+            turns.reduce(|one, other| Rect::around(one.corners().into_iter().chain(other.corners())))?;
+        let mut before = FixedBitSet::with_capacity(self.rooms.len());
+        before.insert_range(..);
+        let mut next: Vec<RoomIndex> = to.collect();
+        while let Some(room) = next.pop() {
+            if before.contains(room.index()) {
+                before.remove(room.index());
+                let into = self.entries().of(room.index()).iter();
+                let into = into.filter(|exit| !self.turns.contains(exit.door.index()));
+                next.extend(into.map(|exit| exit.to));
+            }
+        }
+        Some((before, within))
     }
 
     /// Where ways that weigh metres may turn.
     pub(super) fn turning(&self) -> &Turning {
         self.turning.get_or_init(|| {
             let passing = self.door_indices().map(|door| self.passing_of(door)).collect();
-            Box::new(Turning::new(&self.rooms, &self.doors, passing))
+            Box::new(Turning::new(&self.rooms, &self.doors, passing, &self.turns))
         })
     }
 

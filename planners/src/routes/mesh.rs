@@ -4,7 +4,9 @@
 use std::collections::BTreeMap;
 use std::f64::consts::{PI, TAU};
 
+use fixedbitset::FixedBitSet;
 use petgraph::unionfind::UnionFind;
+use smallvec::SmallVec;
 
 use super::parts::{DoorIndex, Passing, RoomIndex, RouteDoor, RouteRoom};
 use crate::geometry::Point;
@@ -90,9 +92,28 @@ impl Exits {
 }
 
 impl Mesh {
-    pub fn new(rooms: usize, doors: &[RouteDoor]) -> Self {
-        let layer = layers(rooms, doors);
-        let (ends, at_end, points) = number_ends(&layer, doors);
+    /// # Arguments
+    /// `turns` are doors by which one comes into a copy of the rooms, to which they do not belong.
+    pub fn new(rooms: usize, doors: &[RouteDoor], turns: &FixedBitSet) -> Self {
+        let layer = joined(rooms, doors, |_, door| !door.one_way);
+        let ground = joined(rooms, doors, |index, _| !turns.contains(index));
+        let mut numbers = Numbers::default();
+        let mut ends = vec![[NONE; 2]; doors.len()];
+        let (mut at_end, mut points) = (Vec::<Vec<DoorIndex>>::new(), Vec::new());
+        for (index, door) in doors.iter().enumerate() {
+            let Some(segment) = door.crossing.segment() else { continue };
+            for (end, point) in ends[index].iter_mut().zip([segment.a, segment.b]) {
+                *end = numbers.of(ground[door.room1.index()], point);
+                if points.len() <= *end as usize {
+                    points.push(point);
+                    at_end.push(Vec::new());
+                }
+                let (at, index) = (&mut at_end[*end as usize], DoorIndex::new(index));
+                if at.last() != Some(&index) {
+                    at.push(index);
+                }
+            }
+        }
         Self { layer, ends, at_end, points }
     }
 
@@ -142,48 +163,70 @@ impl Mesh {
             || all.iter().any(|&door| passing(door) == Passing::Open)
                 && bends(&|passing| passing != Passing::Shut)
     }
-}
 
-type Ends = (Vec<[u32; 2]>, Vec<Vec<DoorIndex>>, Vec<Point>);
-
-/// Numbers the ends of doors; doors of different layers that end at the same point have different ends.
-fn number_ends(layer: &[u32], doors: &[RouteDoor]) -> Ends {
-    let mut numbers: BTreeMap<(u32, i64, i64), u32> = BTreeMap::new();
-    let (mut at_end, mut points): (Vec<Vec<DoorIndex>>, Vec<Point>) = (Vec::new(), Vec::new());
-    let mut ends = vec![[NONE; 2]; doors.len()];
-    for (index, door) in doors.iter().enumerate() {
-        let of = layer[door.room1.index()];
-        let Some(segment) = door.crossing.segment() else { continue };
-        for (end, point) in ends[index].iter_mut().zip([segment.a, segment.b]) {
-            // what roundings of one point differ by is far below, what doors differ by far above
-            let key = |x: f64, y: f64| (of, (x / SNAP_M).round() as i64, (y / SNAP_M).round() as i64);
-            let own = key(point.x, point.y);
-            let beside = || {
-                let near = [(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0)];
-                let keys = near.map(|(x, y)| key(point.x + NEAR_M * x, point.y + NEAR_M * y));
-                keys.into_iter().filter(|near| *near != own).find_map(|near| numbers.get(&near).copied())
-            };
-            let number = numbers.get(&own).copied().or_else(beside).unwrap_or_else(|| {
-                points.push(point);
-                at_end.push(Vec::new());
-                points.len() as u32 - 1
+    /// The rooms about an end, each with one of those to which one comes from it, and back, by doors that end there; empty where that
+    /// is one for all.
+    pub fn parts(
+        &self,
+        doors: &[RouteDoor],
+        end: u32,
+        passing: impl Fn(DoorIndex) -> Passing,
+    ) -> Vec<(RoomIndex, RoomIndex)> {
+        let all = &self.at_end[end as usize];
+        let mut rooms: SmallVec<[(RoomIndex, RoomIndex); 8]> = SmallVec::new();
+        for &door in all {
+            let RouteDoor { room1, room2, one_way, .. } = &doors[door.index()];
+            let [one, two] = [*room1, *room2].map(|room| {
+                let known = rooms.iter().find(|(known, _)| *known == room).map(|(_, part)| *part);
+                known.unwrap_or_else(|| {
+                    rooms.push((room, room));
+                    room
+                })
             });
-            numbers.insert(own, number);
-            *end = number;
-            let (at, index) = (&mut at_end[number as usize], DoorIndex::new(index));
-            if at.last() != Some(&index) {
-                at.push(index);
+            if !one_way && passing(door) != Passing::Shut {
+                rooms.iter_mut().filter(|(_, part)| *part == two).for_each(|(_, part)| *part = one);
             }
         }
+        let is_one = rooms.iter().all(|(_, part)| *part == rooms[0].1);
+        if is_one { Vec::new() } else { rooms.into_vec() }
     }
-    (ends, at_end, points)
 }
 
-/// For each room a number that is the same for all rooms that doors to pass, both ways, join with it.
-fn layers(rooms: usize, doors: &[RouteDoor]) -> Vec<u32> {
-    let mut layers = UnionFind::<u32>::new(rooms);
-    for door in doors.iter().filter(|door| !door.is_change() && !door.one_way) {
-        layers.union(door.room1.index() as u32, door.room2.index() as u32);
+/// Numbers points where doors end.
+#[derive(Default)]
+struct Numbers {
+    known: BTreeMap<(u32, i64, i64), u32>,
+    count: u32,
+}
+
+impl Numbers {
+    /// The number of a point of some rooms that are numbered together.
+    fn of(&mut self, rooms: u32, point: Point) -> u32 {
+        // what roundings of one point differ by is far below, what doors differ by far above
+        let key = |x: f64, y: f64| (rooms, (x / SNAP_M).round() as i64, (y / SNAP_M).round() as i64);
+        let own = key(point.x, point.y);
+        let beside = || {
+            let near = [(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0)];
+            let keys = near.map(|(x, y)| key(point.x + NEAR_M * x, point.y + NEAR_M * y));
+            keys.into_iter().filter(|near| *near != own).find_map(|near| self.known.get(&near).copied())
+        };
+        let known = self.known.get(&own).copied().or_else(beside);
+        let number = known.unwrap_or_else(|| {
+            self.count += 1;
+            self.count - 1
+        });
+        self.known.insert(own, number);
+        number
     }
-    layers.into_labeling()
+}
+
+/// For each room a number that is the same for all rooms that doors to pass join with it, of those that count.
+fn joined(rooms: usize, doors: &[RouteDoor], counts: impl Fn(usize, &RouteDoor) -> bool) -> Vec<u32> {
+    let mut joined = UnionFind::<u32>::new(rooms);
+    for (_, door) in
+        doors.iter().enumerate().filter(|(index, door)| !door.is_change() && counts(*index, door))
+    {
+        joined.union(door.room1.index() as u32, door.room2.index() as u32);
+    }
+    joined.into_labeling()
 }

@@ -1,6 +1,6 @@
 //! Changes of shape one after the other at one point, where that costs less than one change does.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 use super::cone::Segment;
 use super::graph::RouteGraph;
@@ -14,21 +14,47 @@ type Prices = BTreeMap<u32, BTreeMap<u32, [f64; 2]>>;
 impl RouteGraph {
     /// Whether a change of shape between the layers of two rooms costs more than several one after the other, or is not made.
     pub(super) fn is_sequence_cheaper(&self, from: RoomIndex, to: RoomIndex) -> bool {
-        let all = self.turning().sequences.get_or_init(|| {
+        !self.sequences().is_empty() && self.sequences().contains_key(&self.layers_of(from, to))
+    }
+
+    /// What changes between the layers of two rooms cost together at least, where several cost less than one.
+    pub(super) fn least_of_sequence(&self, from: RoomIndex, to: RoomIndex) -> f64 {
+        self.sequences().get(&self.layers_of(from, to)).copied().unwrap_or(0.0)
+    }
+
+    fn layers_of(&self, from: RoomIndex, to: RoomIndex) -> (u32, u32) {
+        let mesh = &self.turning().mesh;
+        (mesh.layer(from), mesh.layer(to))
+    }
+
+    fn sequences(&self) -> &BTreeMap<(u32, u32), f64> {
+        self.turning().sequences.get_or_init(|| {
             let prices = self.prices();
-            let mut cheaper = BTreeSet::new();
+            // of changes out of each layer, and into it, the cheapest
+            let (mut out_of, mut into) = (BTreeMap::new(), BTreeMap::new());
+            for (&from, all) in &prices {
+                for (&to, &[least, _]) in all {
+                    for (known, layer) in [(&mut out_of, from), (&mut into, to)] {
+                        let known: &mut f64 = known.entry(layer).or_insert(least);
+                        *known = known.min(least);
+                    }
+                }
+            }
+            let mut cheaper = BTreeMap::new();
             for (&from, all) in &prices {
                 for (over, [first, _]) in all {
                     for (&to, [second, _]) in prices.get(over).into_iter().flatten() {
-                        if all.get(&to).is_some_and(|[_, at_once]| first + second < at_once - EPSILON) {
-                            cheaper.insert((from, to));
+                        let Some([at_once, most]) = all.get(&to) else { continue };
+                        if first + second < most - EPSILON {
+                            // none is cheaper than its first and its last change
+                            let least = at_once.min(out_of[&from] + into[&to]);
+                            cheaper.insert((from, to), least);
                         }
                     }
                 }
             }
             cheaper
-        });
-        !all.is_empty() && all.contains(&(self.turning().mesh.layer(from), self.turning().mesh.layer(to)))
+        })
     }
 
     fn prices(&self) -> Prices {

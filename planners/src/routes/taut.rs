@@ -14,13 +14,14 @@ use std::collections::{BTreeMap, BinaryHeap, HashMap, HashSet};
 use std::rc::Rc;
 
 use fixedbitset::FixedBitSet;
+use smallvec::SmallVec;
 
 use super::cone::{Gap, Segment, View};
 use super::graph::RouteGraph;
 use super::mesh::{EPSILON, Exit, NONE};
 use super::parts::{DoorIndex, Entry, Goal, RoomIndex, Start};
 use super::turning::Turning;
-use crate::geometry::Point;
+use crate::geometry::{Point, Rect};
 
 /// Points at which a way is refracted or a shape is changed lie at most so far apart, metres; they are slid
 /// to the best place afterwards.
@@ -46,6 +47,9 @@ const MOST_INTO_ROOM: usize = 4;
 
 /// No node, before the first.
 pub(super) const NO_NODE: u32 = u32::MAX;
+
+/// Points of a segment from which a search goes on.
+type Points = SmallVec<[Point; 16]>;
 
 /// A way into a room, up to what is seen of the door.
 #[derive(Clone, Copy, Debug)]
@@ -113,6 +117,8 @@ pub(super) struct Search<'g> {
     turning: &'g Turning,
     goals: &'g [Goal],
     wanted: Wanted,
+    /// The rooms from which no way leads to a goal but by doors at which ways turn back, and what these lie within.
+    through: Option<(FixedBitSet, Rect)>,
     /// Whether a way may end anywhere in a room, not at a point alone.
     ends_in_rooms: bool,
     /// For each room the goals in it.
@@ -121,6 +127,8 @@ pub(super) struct Search<'g> {
     least_per_m: f64,
     /// What arcs about corners save a way at most.
     saved_by_arcs: f64,
+    /// What a way may cost before it is pulled tight and still be the best.
+    most: f64,
     nodes: Vec<Node>,
     /// Goals that were seen, with where from.
     found: Vec<(usize, Found)>,
@@ -132,6 +140,8 @@ pub(super) struct Search<'g> {
     offered: Vec<Vec<(Point, f64)>>,
     /// For each end of a door the least cost of a way that bends there.
     bent: Vec<f64>,
+    /// The same of ends about which one does not come from each room into each other one, by the rooms that belong together.
+    bent_in_part: HashMap<(u32, RoomIndex), f64>,
     /// Roots from which a room was looked at already: the room, the point, and to which side.
     looked: HashSet<(RoomIndex, u64, u64, u8)>,
     /// Where the states end that lie between those of a change, from a room; found when first asked for.
@@ -153,12 +163,17 @@ impl<'g> Search<'g> {
         wanted: Wanted,
         limit: f64,
     ) -> Outcome {
-        let mut outcome = Self::new(graph, goals, wanted, FixedBitSet::new()).run(start, limit);
+        let mut outcome = Self::new(graph, goals, (wanted, limit), FixedBitSet::new()).run(start);
         outcome.look_for_missed(graph, start, goals, wanted, limit);
         outcome
     }
 
-    fn new(graph: &'g RouteGraph, goals: &'g [Goal], wanted: Wanted, freely: FixedBitSet) -> Self {
+    fn new(
+        graph: &'g RouteGraph,
+        goals: &'g [Goal],
+        (wanted, limit): (Wanted, f64),
+        freely: FixedBitSet,
+    ) -> Self {
         let mut targets = Vec::new();
         for (index, goal) in goals.iter().enumerate() {
             for &Entry { room, joint } in &goal.rooms {
@@ -182,6 +197,7 @@ impl<'g> Search<'g> {
         let rooms = graph.rooms().len();
         let kept = if wanted == Wanted::Rooms { rooms } else { 0 };
         let turning = graph.turning();
+        let saved_by_arcs = graph.saved_by_arcs();
         let outcome = Outcome {
             nodes: Vec::new(),
             goals: vec![Vec::new(); goals.len()],
@@ -194,16 +210,19 @@ impl<'g> Search<'g> {
             turning,
             goals,
             wanted,
+            through: graph.leads_through(targets.iter().map(|(room, _)| *room)),
             ends_in_rooms: wanted == Wanted::Rooms || goals.iter().any(|goal| goal.at.is_none()),
             targets,
             least_per_m: graph.least_per_m(),
-            saved_by_arcs: graph.saved_by_arcs(),
+            saved_by_arcs,
+            most: slack(limit, saved_by_arcs),
             nodes: Vec::new(),
             found: Vec::new(),
             queue: BinaryHeap::new(),
             reached: vec![Vec::new(); rooms],
             offered: vec![Vec::new(); rooms],
-            bent: vec![f64::INFINITY; turning.bends.len()],
+            bent: vec![f64::INFINITY; turning.mesh.ends_count()],
+            bent_in_part: HashMap::new(),
             looked: HashSet::new(),
             ends_of_sequences: HashMap::new(),
             alike: HashMap::new(),
@@ -212,7 +231,7 @@ impl<'g> Search<'g> {
         }
     }
 
-    fn run(mut self, start: &Start, most: f64) -> Outcome {
+    fn run(mut self, start: &Start) -> Outcome {
         for &Entry { room, joint } in &start.rooms {
             if !self.graph.is_entered(room) {
                 continue;
@@ -230,13 +249,9 @@ impl<'g> Search<'g> {
             });
         }
         let mut missing = self.goals.len();
-        // ways are not as short as they can be before they are pulled tight
-        let saved = self.saved_by_arcs + EPSILON;
-        let slack = |cost: f64| cost * (1.0 + SLACK) + saved;
-        let (mut limit, mut is_last) = (slack(most), false);
+        let mut is_last = false;
         while let Some(candidate) = self.queue.pop() {
-            if candidate.least > limit {
-                self.outcome.is_cut = true;
+            if self.is_too_dear(candidate.least) {
                 break;
             }
             match candidate.what {
@@ -253,7 +268,8 @@ impl<'g> Search<'g> {
                     }
                     let is_done = self.wanted == Wanted::One || missing == 0 && self.wanted == Wanted::Goals;
                     if is_done && !is_last {
-                        (limit, is_last) = (limit.min(slack(found.cost) + self.slid(&found)), true);
+                        let most = slack(found.cost, self.saved_by_arcs) + self.slid(&found);
+                        (self.most, is_last) = (self.most.min(most), true);
                     }
                 }
                 What::Node(index) => self.expand(index),
@@ -268,29 +284,40 @@ impl<'g> Search<'g> {
         self.outcome
     }
 
-    /// A lower limit of what remains from a point.
-    fn remaining(&self, from: &dyn Fn(Point) -> f64) -> f64 {
+    /// Whether a way that costs so much at least need not be looked for.
+    fn is_too_dear(&mut self, least: f64) -> bool {
+        let is_too_dear = least > self.most;
+        self.outcome.is_cut |= is_too_dear;
+        is_too_dear
+    }
+
+    /// A lower limit of what remains in a room from what is seen of a segment.
+    fn remaining(&self, room: RoomIndex, seen: Segment) -> f64 {
         if self.wanted != Wanted::One || self.least_per_m <= 0.0 {
             return 0.0;
         }
-        let to = |goal: &Goal| goal.at.map_or(0.0, from);
+        let through = self.through.as_ref().filter(|(before, _)| before.contains(room.index()));
+        let to = |goal: &Goal| {
+            let Some(at) = goal.at else { return 0.0 };
+            let by = through.map_or(0.0, |(_, by)| seen.bounds().gap(by) + by.nearest_to(at).distance(at));
+            seen.distance(at).max(by)
+        };
         self.goals.iter().map(to).fold(f64::INFINITY, f64::min) * self.least_per_m
     }
 
     fn push(&mut self, node: Node) {
         let per_m = self.graph.per_m(node.room);
-        let (near, remaining) = match &node.view {
-            View::Through(gap) => {
-                let segment = gap.segment();
-                let near = segment.nearest_to(node.root).distance(node.root);
-                (near, self.remaining(&|goal| segment.nearest_to(goal).distance(goal)))
-            }
-            _ => (0.0, self.remaining(&|goal| node.root.distance(goal))),
+        let seen = match &node.view {
+            View::Through(gap) => gap.segment(),
+            _ => Segment::new(node.root, node.root),
         };
+        let least = node.cost + seen.distance(node.root) * per_m + self.remaining(node.room, seen);
+        if self.is_too_dear(least) {
+            return;
+        }
         let index = self.nodes.len() as u32;
         self.nodes.push(node);
-        let least = node.cost + near * per_m;
-        self.queue.push(Candidate { least: least + remaining, what: What::Node(index) });
+        self.queue.push(Candidate { least, what: What::Node(index) });
     }
 
     fn expand(&mut self, index: u32) {
@@ -311,11 +338,12 @@ impl<'g> Search<'g> {
         }
         let end = if node.bent { self.end_at(&node) } else { NONE };
         if end != NONE {
-            if self.bent[end as usize] < node.cost - EPSILON {
+            let bent = self.bent_at(end, node.room);
+            if *bent < node.cost - EPSILON {
                 self.outcome.passed_over.push(index);
                 return;
             }
-            self.bent[end as usize] = node.cost;
+            *bent = node.cost;
         }
         self.remember(index, &node);
         self.arrive(index, &node);
@@ -330,6 +358,14 @@ impl<'g> Search<'g> {
                 self.arrive_by_change(index, &node, *exit);
             }
             self.change(index, &node, *exit);
+        }
+    }
+
+    /// The least cost of a way that bends at an end in a room, or in one to which it may go on about that end.
+    fn bent_at(&mut self, end: u32, room: RoomIndex) -> &mut f64 {
+        match self.turning.part_of(end, room) {
+            Some(part) => self.bent_in_part.entry((end, part)).or_insert(f64::INFINITY),
+            None => &mut self.bent[end as usize],
         }
     }
 
@@ -499,6 +535,11 @@ impl<'g> Search<'g> {
 
     fn arrive_at(&mut self, goal: usize, found: Found) {
         if self.outcome.goals[goal].len() < MOST_WAYS {
+            if self.wanted == Wanted::One {
+                let slid = self.targets.iter().map(|(room, _)| slid_in(self.graph, *room));
+                let slid = slid.fold(0.0, f64::max);
+                self.most = self.most.min(slack(found.cost, self.saved_by_arcs) + slid);
+            }
             let what = What::Goal(self.found.len() as u32);
             self.found.push((goal, found));
             self.queue.push(Candidate { least: found.cost, what });
@@ -510,15 +551,16 @@ impl<'g> Search<'g> {
         let View::Through(gap) = node.view else { return };
         let per_m = self.graph.per_m(node.room);
         for (end, root, left) in [(gap.left_end, gap.left, true), (gap.right_end, gap.right, false)] {
-            if end == NONE || !self.turning.bends[end as usize] {
+            if !self.turning.bends_at(end) {
                 continue;
             }
             let cost = node.cost + per_m * node.root.distance(root);
             let view = View::Side { from: node.root, left };
             let bent = Node { root, cost, before: index, bent: true, view, ..*node };
-            if cost <= self.bent[end as usize] + EPSILON {
+            let least = *self.bent_at(end, node.room);
+            if cost <= least + EPSILON {
                 self.push(bent);
-            } else if cost <= self.bent[end as usize] + self.saved_by_arcs {
+            } else if cost <= least + self.saved_by_arcs {
                 self.outcome.passed_over.push(self.nodes.len() as u32);
                 self.nodes.push(bent);
             }
@@ -570,7 +612,7 @@ impl<'g> Search<'g> {
                 // along a wall, and about the near end
                 let ends = self.turning.mesh.ends(door);
                 let end = if near.distance(segment.a) <= EPSILON { ends[0] } else { ends[1] };
-                if self.turning.bends[end as usize] {
+                if self.turning.bends_at(end) {
                     self.push(next(near, way, View::All));
                 }
             }
@@ -606,9 +648,9 @@ impl<'g> Search<'g> {
 
     /// Points of a segment from which the search goes on into a room: the one nearest to the root, those nearest to
     /// goals in the room, the ends, and some between.
-    fn points(&self, room: RoomIndex, seen: Segment, root: Point) -> Vec<Point> {
+    fn points(&self, room: RoomIndex, seen: Segment, root: Point) -> Points {
         let length = seen.length();
-        let mut points = vec![seen.nearest_to(root)];
+        let mut points = Points::from_slice(&[seen.nearest_to(root)]);
         let is_among = |points: &[Point], p: Point| points.iter().any(|known| known.distance(p) <= EPSILON);
         for at in self.targets_in(room).filter_map(|target| target.at) {
             let foot = seen.nearest_to(at);
@@ -661,6 +703,11 @@ impl Outcome {
         }
         others.into_values().filter(|(lag, ..)| *lag <= saved).map(|(_, own, other)| (own, other)).collect()
     }
+}
+
+/// What a way may cost before it is pulled tight, and then cost no more than another one does.
+fn slack(cost: f64, saved_by_arcs: f64) -> f64 {
+    cost * (1.0 + SLACK) + saved_by_arcs + EPSILON
 }
 
 /// What it costs at least to come into a room, by some ways.

@@ -2,12 +2,14 @@
 //! hardness lies on the doors, so it is found when first asked for, and follows the weights from then on.
 
 use std::cmp::Ordering;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, HashMap};
 use std::sync::{Arc, OnceLock};
+
+use fixedbitset::FixedBitSet;
 
 use super::cone::Segment;
 use super::mesh::{Mesh, NONE};
-use super::parts::{DoorIndex, Passing, RouteDoor, RouteRoom};
+use super::parts::{DoorIndex, Passing, RoomIndex, RouteDoor, RouteRoom};
 use crate::geometry::Rect;
 
 /// Where a change may pay.
@@ -24,13 +26,16 @@ pub(super) struct Gate {
 pub(super) struct Turning {
     pub mesh: Mesh,
     /// For each end of a door whether a way may bend there.
-    pub bends: Vec<bool>,
+    bends: Vec<bool>,
+    /// The ends about which one does not come from each room into each other one, with these rooms, by [`Mesh::parts`].
+    parts: HashMap<u32, Vec<(RoomIndex, RoomIndex)>>,
     /// For each door what passing it changes.
     passing: Vec<Passing>,
     /// What clones find, all have, as long as nothing that a gate hangs on is otherwise in one of them.
     gates: Arc<Vec<Arc<Gates>>>,
-    /// From which layer into which one several changes cost less than one, somewhere; found when first asked for.
-    pub sequences: OnceLock<BTreeSet<(u32, u32)>>,
+    /// From which layer into which one several changes cost less than one, somewhere, and what they cost at least; found when
+    /// first asked for.
+    pub sequences: OnceLock<BTreeMap<(u32, u32), f64>>,
 }
 
 /// Where it may pay to begin a change, in each direction, and whichever of its rooms is easier; found when first asked for.
@@ -43,13 +48,30 @@ const REACH_M: f64 = 1.0;
 const MANY: usize = 64;
 
 impl Turning {
-    pub fn new(rooms: &[RouteRoom], doors: &[RouteDoor], passing: Vec<Passing>) -> Self {
-        let mesh = Mesh::new(rooms.len(), doors);
+    pub fn new(rooms: &[RouteRoom], doors: &[RouteDoor], passing: Vec<Passing>, turns: &FixedBitSet) -> Self {
+        let mesh = Mesh::new(rooms.len(), doors, turns);
         let gates = Arc::new(doors.iter().map(|_| Arc::default()).collect());
-        let mut all =
-            Self { bends: vec![false; mesh.ends_count()], mesh, passing, gates, sequences: OnceLock::new() };
+        let mut all = Self {
+            bends: vec![false; mesh.ends_count()],
+            parts: HashMap::new(),
+            mesh,
+            passing,
+            gates,
+            sequences: OnceLock::new(),
+        };
         all.find_bends(rooms, doors, &(0..doors.len()).map(DoorIndex::new).collect::<Vec<_>>());
         all
+    }
+
+    /// Whether a way may bend at an end of a door.
+    pub fn bends_at(&self, end: u32) -> bool {
+        end != NONE && self.bends[end as usize]
+    }
+
+    /// Of an end about which one does not come from each room into each other one, the rooms that belong with a room.
+    pub fn part_of(&self, end: u32, room: RoomIndex) -> Option<RoomIndex> {
+        let parts = self.parts.get(&end)?;
+        parts.iter().find(|(known, _)| *known == room).map(|(_, part)| *part)
     }
 
     /// The gates of a change in one of its directions.
@@ -118,7 +140,14 @@ impl Turning {
         ends.sort_unstable();
         ends.dedup();
         for end in ends {
-            self.bends[end as usize] = self.mesh.bends(rooms, doors, end, |door| self.passing[door.index()]);
+            let passing = |door: DoorIndex| self.passing[door.index()];
+            self.bends[end as usize] = self.mesh.bends(rooms, doors, end, passing);
+            let parts = self.mesh.parts(doors, end, passing);
+            if parts.is_empty() {
+                self.parts.remove(&end);
+            } else {
+                self.parts.insert(end, parts);
+            }
         }
     }
 }

@@ -108,7 +108,7 @@ impl RouteGraph {
     }
 
     /// For each room the doors into it, with the rooms that they lead from; found when first asked for.
-    fn entries(&self) -> &Csr<Exit> {
+    pub(super) fn entries(&self) -> &Csr<Exit> {
         self.entries.get_or_init(|| {
             let into = |room: RoomIndex| {
                 self.exits(room).map(move |exit| (exit.to.index(), Exit { to: room, ..*exit }))

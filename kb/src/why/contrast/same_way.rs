@@ -51,14 +51,17 @@ impl<'r> SameWay<'r> {
 
 impl Contrast for SameWay<'_> {
     fn look(&self, weights: &Weights) -> Option<Look> {
-        let Some((best, least)) = self.rival(weights, f64::INFINITY) else {
+        let as_now = self.path.cost(weights);
+        // what costs more than this way is not the best
+        let without_limit = || self.rival(weights, f64::INFINITY);
+        let best = self.rival(weights, as_now).or_else(|| as_now.is_finite().then(without_limit).flatten());
+        let Some((best, least)) = best else {
             return Some(Look { own: None, rival: None, least: f64::INFINITY, is_turned: true });
         };
         if self.is_this(&best) {
             let best = Some((best, least));
             return Some(Look { own: best.clone(), rival: best, least, is_turned: false });
         }
-        let as_now = self.path.cost(weights);
         let own = as_now.is_finite().then(|| (self.path.clone(), as_now));
         // what is found is driven, though this way may cost less: it is turned unless both cost the same
         let is_turned = !(as_now - least).abs().le(&(self.all.rounding() * least.abs().max(1e-9)));

@@ -6,7 +6,6 @@ use std::ops::Range;
 
 use super::super::cone::Segment;
 use super::super::graph::RouteGraph;
-use super::super::mesh::NONE;
 use super::super::parts::{DoorIndex, RoomIndex};
 use super::super::pull::{Opening, taut, turns};
 use super::super::rounded::{Arc, tangents};
@@ -117,8 +116,7 @@ impl Run {
                     }
                     for (end, point) in graph.turning().mesh.ends(exit.door).into_iter().zip([door.a, door.b])
                     {
-                        if end != NONE && graph.turning().bends[end as usize] && line.distance(point) <= reach
-                        {
+                        if graph.turning().bends_at(end) && line.distance(point) <= reach {
                             ends.entry(end).or_insert((exit.door, point, within));
                         }
                     }

@@ -20,6 +20,7 @@ impl Search<'_> {
         }
         let (here, there) = (graph.per_m(node.room), graph.per_m(room));
         let at_once = graph.passage(door).filter(|_| !is_in_steps);
+        let least = at_once.unwrap_or_else(|| graph.least_of_sequence(node.room, room));
         let reach = |search: &mut Self, p: Point| {
             let cost = node.cost + node.root.distance(p) * here;
             let is_vain = |search: &Self, weight: f64| {
@@ -27,8 +28,10 @@ impl Search<'_> {
                 search.is_cheaper_in(room, p, limit, there)
                     || is_cheaper_from(&search.offered[room.index()], p, limit, there)
             };
-            // reached at less cost otherwise
-            if at_once.is_some_and(|weight| is_vain(search, weight))
+            // too dear, or reached at less cost otherwise
+            let remaining = search.remaining(room, Segment::new(p, p));
+            if search.is_too_dear(cost + least + remaining)
+                || is_vain(search, least)
                 || search.is_cheaper_in(node.room, p, cost - EPSILON, here)
                 || graph.is_on_wall(room, p)
             {
@@ -57,6 +60,9 @@ impl Search<'_> {
                     continue;
                 }
                 let Some(seen) = node.view.of(node.root, side) else { continue };
+                if self.is_change_too_dear(node, (room, seen), least) {
+                    continue;
+                }
                 for p in self.points(room, seen, node.root) {
                     reach(self, p);
                 }
@@ -70,7 +76,9 @@ impl Search<'_> {
             let ends =
                 Rc::clone(ends.or_insert_with(|| graph.ends_of_sequences(door, node.room, room).into()));
             for end in ends.iter() {
-                if let Some(seen) = node.view.of_gate(node.root, *end) {
+                if let Some(seen) = node.view.of_gate(node.root, *end)
+                    && !self.is_change_too_dear(node, (room, seen), least)
+                {
                     for p in self.points(room, seen, node.root) {
                         reach(self, p);
                     }
@@ -85,12 +93,23 @@ impl Search<'_> {
             {
                 continue;
             }
-            if let Some(seen) = node.view.of_gate(node.root, *gate) {
+            if let Some(seen) = node.view.of_gate(node.root, *gate)
+                && !self.is_change_too_dear(node, (room, seen), least)
+            {
                 for p in self.points(room, seen, node.root) {
                     reach(self, p);
                 }
             }
         }
+    }
+
+    /// Whether a change into a room on what a node sees of a segment, which costs so much at least, need not be looked for.
+    fn is_change_too_dear(&mut self, node: &Node, (room, seen): (RoomIndex, Segment), least: f64) -> bool {
+        if self.most.is_infinite() {
+            return false;
+        }
+        let way = seen.distance(node.root) * self.graph.per_m(node.room);
+        self.is_too_dear(node.cost + way + least + self.remaining(room, seen))
     }
 
     /// Into a room anywhere in which a way may end: where that is possible first, not where it pays to go on.

@@ -37,7 +37,7 @@ impl Outcome {
                 self.lead_to(graph, &goals, &mut freely);
             }
             let wanted = if wanted == Wanted::One { Wanted::One } else { Wanted::Goals };
-            self.add(Search::new(graph, &goals, wanted, freely).run(start, limit), missed);
+            self.add(Search::new(graph, &goals, (wanted, limit), freely).run(start), missed);
         }
     }
 
