@@ -7,7 +7,8 @@ use super::super::mesh::Exit;
 use super::super::parts::{Goal, RoomIndex};
 use super::super::turning::Gate;
 use super::{CLOSE_M, EPSILON, Found, NEAR_M, NO_NODE, Node, Search, View, Wanted, is_cheaper_from};
-use crate::geometry::Point;
+use crate::geometry::tolerance::SNAP_M;
+use crate::geometry::{Point, Rect};
 
 impl Search<'_> {
     /// Into another state, to go on from there.
@@ -49,6 +50,10 @@ impl Search<'_> {
         let is_turning = || graph[node.door].is_change() && here.to_bits() == there.to_bits();
         let is_at_once = node.before == NO_NODE || is_turning();
         let Some(area) = graph[door].crossing.area() else { return };
+        let about = area.bounds().grown(SNAP_M);
+        if self.is_vain_about(node, (room, &about), least) {
+            return;
+        }
         if is_at_once && area.contains(node.root) {
             reach(self, node.root);
         }
@@ -88,6 +93,7 @@ impl Search<'_> {
         let mut is_step_on_a_way = None;
         for Gate { segment: gate, is_deep, is_step } in graph.gates(door, node.room) {
             if !is_deep && !self.is_near_a_goal(gate)
+                || self.is_vain_about(node, (room, &gate.bounds()), least)
                 || *is_step
                     && !*is_step_on_a_way.get_or_insert_with(|| graph.is_step_on_a_way(door, node.room))
             {
@@ -101,6 +107,22 @@ impl Search<'_> {
                 }
             }
         }
+    }
+
+    /// Whether all of a rectangle is reached in a room at less cost than a change there from a node, for which it costs so much at
+    /// least.
+    fn is_vain_about(&self, node: &Node, (room, about): (RoomIndex, &Rect), least: f64) -> bool {
+        let (here, there) = (self.graph.per_m(node.room), self.graph.per_m(room));
+        let way = about.nearest_to(node.root).distance(node.root);
+        let limit = node.cost + way * here + least + EPSILON;
+        let known = [&self.reached[room.index()], &self.offered[room.index()]];
+        known.into_iter().flatten().any(|&(q, cost)| {
+            cost < limit && {
+                let dx = (q.x - about.x0).abs().max((q.x - about.x1).abs());
+                let dy = (q.y - about.y0).abs().max((q.y - about.y1).abs());
+                cost + there * dx.hypot(dy) < limit
+            }
+        })
     }
 
     /// Whether a change into a room on what a node sees of a segment, which costs so much at least, need not be looked for.
