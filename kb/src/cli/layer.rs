@@ -46,8 +46,11 @@ pub fn run(site: &SiteArgs, name: &str, to: &Path) -> Result<()> {
     }
     line(&format!("{}: {} of {}", to.display(), counted(count, "feature"), layer.name));
     if count == 0 {
-        let others = if others.is_empty() { "nothing at all".to_owned() } else { others.join(", ") };
-        remark(&format!("the map of the site gives no {}; it gives {others}", layer.name));
+        let others = match others.as_slice() {
+            [] => "and so are all other layers".to_owned(),
+            some => format!("layers that are not: {}", some.join(", ")),
+        };
+        remark(&format!("`{}` is empty; {others}", layer.name));
     }
     Ok(())
 }

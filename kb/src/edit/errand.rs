@@ -41,6 +41,16 @@ impl Errand {
         [self.start_state.as_deref(), self.goal_state.as_deref()]
     }
 
+    /// An answer that says, too, what the errand keeps away from, where there is no route.
+    pub(crate) fn explained(&self, mut answer: Answer) -> Answer {
+        let is_avoiding = answer.status == Status::NoRoute && !self.avoid.is_empty();
+        if let Some(reason) = answer.reason.as_mut().filter(|_| is_avoiding && self.ends_in() == [None; 2]) {
+            let avoided: Vec<String> = self.avoid.iter().map(|what| format!("`{what}`")).collect();
+            *reason = format!("{reason}; this errand keeps away from {}", avoided.join(", "));
+        }
+        answer
+    }
+
     /// Has tables and facts say it, in a transaction that is taken back.
     pub(crate) fn tell(
         &self,
@@ -76,12 +86,7 @@ impl State {
         let robot = answer::pick(&state.robots(), robot)?;
         let blank = Answer::blank(&robot, start, goals, state.generation);
         let basis = Basis { ends_in: errand.ends_in(), start_facing: errand.start_facing, ..state.basis() };
-        let mut answer = basis.search(goals, blank)?;
-        let is_avoiding = answer.status == Status::NoRoute && !errand.avoid.is_empty();
-        if let Some(reason) = answer.reason.as_mut().filter(|_| is_avoiding) {
-            reason.push_str(&format!("; this errand keeps away from {}", errand.avoid.join(", ")));
-        }
-        Ok(answer)
+        Ok(errand.explained(basis.search(goals, blank)?))
     }
 
     /// The best route to a goal on an errand after edits, which nobody keeps; where there is none, nothing is said of why.

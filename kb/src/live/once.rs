@@ -227,7 +227,8 @@ impl KnowledgeBase {
         drop(self.fresh()?);
         let then = self.clone().at(errand.at.as_deref())?;
         let tell = |tx: &mut Tx<'_>, rules: &RuleBase| errand.tell(tx, (&then, rules), robot);
-        then.rehearsed(tell, |tx| then.answer(tx, (start, goals), robot, errand.ends_in()))
+        let answer = then.rehearsed(tell, |tx| then.answer(tx, (start, goals), robot, errand.ends_in()))?;
+        Ok(errand.explained(answer))
     }
 
     /// Does `work` on what would be derived now, after something is told, and takes all of it back.

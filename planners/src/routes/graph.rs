@@ -63,8 +63,8 @@ impl RouteGraph {
         self.cut.take();
     }
 
-    /// The rooms from which no way leads to others but by doors at which ways turn back, and what these doors lie within; `None` where
-    /// ways turn back nowhere.
+    /// The rooms from which ways lead to some others only by doors at which ways turn back, and the rectangle about those doors; `None`
+    /// where ways turn back nowhere.
     pub(super) fn leads_through(&self, to: impl Iterator<Item = RoomIndex>) -> Option<(FixedBitSet, Rect)> {
         let turns = self.turns.ones().map(|door| self.doors[door].crossing.bounds());
         let within =

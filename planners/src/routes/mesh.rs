@@ -93,7 +93,7 @@ impl Exits {
 
 impl Mesh {
     /// # Arguments
-    /// `turns` are doors by which one comes into a copy of the rooms, to which they do not belong.
+    /// `turns` are doors that lead into a copy of the rooms, and join nothing.
     pub fn new(rooms: usize, doors: &[RouteDoor], turns: &FixedBitSet) -> Self {
         let layer = joined(rooms, doors, |_, door| !door.one_way);
         let ground = joined(rooms, doors, |index, _| !turns.contains(index));
@@ -164,8 +164,8 @@ impl Mesh {
                 && bends(&|passing| passing != Passing::Shut)
     }
 
-    /// The rooms about an end, each with one of those to which one comes from it, and back, by doors that end there; empty where that
-    /// is one for all.
+    /// The rooms about an end, each with one that stands for all those with which doors that end there join it at no cost, both ways;
+    /// empty where one stands for all.
     pub fn parts(
         &self,
         doors: &[RouteDoor],
@@ -183,7 +183,7 @@ impl Mesh {
                     room
                 })
             });
-            if !one_way && passing(door) != Passing::Shut {
+            if !one_way && passing(door) == Passing::Free {
                 rooms.iter_mut().filter(|(_, part)| *part == two).for_each(|(_, part)| *part = one);
             }
         }

@@ -46,7 +46,7 @@ impl RouteGraph {
                     for (&to, [second, _]) in prices.get(over).into_iter().flatten() {
                         let Some([at_once, most]) = all.get(&to) else { continue };
                         if first + second < most - EPSILON {
-                            // none is cheaper than its first and its last change
+                            // no sequence costs less than its first and its last change together
                             let least = at_once.min(out_of[&from] + into[&to]);
                             cheaper.insert((from, to), least);
                         }

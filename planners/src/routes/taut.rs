@@ -117,7 +117,7 @@ pub(super) struct Search<'g> {
     turning: &'g Turning,
     goals: &'g [Goal],
     wanted: Wanted,
-    /// The rooms from which no way leads to a goal but by doors at which ways turn back, and what these lie within.
+    /// The rooms from which ways lead to a goal only by doors at which ways turn back, and the rectangle about those doors.
     through: Option<(FixedBitSet, Rect)>,
     /// Whether a way may end anywhere in a room, not at a point alone.
     ends_in_rooms: bool,
@@ -289,6 +289,11 @@ impl<'g> Search<'g> {
         let is_too_dear = least > self.most;
         self.outcome.is_cut |= is_too_dear;
         is_too_dear
+    }
+
+    /// Whether what costs so much at least can be left out unseen: it is known that ways were left out, or one was found.
+    fn is_left_out(&self, least: f64) -> bool {
+        least > self.most && (self.outcome.is_cut || !self.found.is_empty())
     }
 
     /// A lower limit of what remains in a room from what is seen of a segment.
@@ -537,7 +542,7 @@ impl<'g> Search<'g> {
         if self.outcome.goals[goal].len() < MOST_WAYS {
             if self.wanted == Wanted::One {
                 let slid = self.targets.iter().map(|(room, _)| slid_in(self.graph, *room));
-                let slid = slid.fold(0.0, f64::max);
+                let slid = slid.fold(self.slid(&found), f64::max);
                 self.most = self.most.min(slack(found.cost, self.saved_by_arcs) + slid);
             }
             let what = What::Goal(self.found.len() as u32);
@@ -705,7 +710,7 @@ impl Outcome {
     }
 }
 
-/// What a way may cost before it is pulled tight, and then cost no more than another one does.
+/// What a way may cost before it is pulled tight and still come to cost no more than another one of this cost.
 fn slack(cost: f64, saved_by_arcs: f64) -> f64 {
     cost * (1.0 + SLACK) + saved_by_arcs + EPSILON
 }

@@ -27,7 +27,7 @@ pub(super) struct Turning {
     pub mesh: Mesh,
     /// For each end of a door whether a way may bend there.
     bends: Vec<bool>,
-    /// The ends about which one does not come from each room into each other one, with these rooms, by [`Mesh::parts`].
+    /// The ends about which one does not come from each room into each other one at no cost, with these rooms, by [`Mesh::parts`].
     parts: HashMap<u32, Vec<(RoomIndex, RoomIndex)>>,
     /// For each door what passing it changes.
     passing: Vec<Passing>,

@@ -93,7 +93,7 @@ fn a_route_is_the_same_way_with_the_codes_of_the_route_server() {
     assert_eq!(route["nodes"].as_array().unwrap().len(), expected.len());
     assert_eq!(route["edges"].as_array().unwrap().len(), expected.len() - 1);
     let cost = floor.route("4.7,1.5", "53.8,14")["cost"].as_f64().unwrap();
-    // a cost is a float there
+    // costs are single-precision there
     assert!(
         (route["route_cost"].as_f64().unwrap() - cost).abs() < 1e-4,
         "{} for {cost}",

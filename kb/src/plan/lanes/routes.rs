@@ -19,7 +19,7 @@ use crate::draw::render_lanes;
 use crate::error::Result;
 use crate::plan::Said;
 use crate::plan::course::{Found, NoEnd, Pathfinder, no_through, point};
-use crate::words::number::counted;
+use crate::words::number::{counted, number};
 use crate::words::suggest::did_you_mean;
 
 /// Metres; points beyond it are slips, as they are in files.
@@ -40,6 +40,8 @@ pub struct Routes {
     uses: BTreeMap<String, Vec<usize>>,
     nets: Vec<Net>,
     judge: Mutex<Judge>,
+    /// How long the longest lane is, metres.
+    reach: f64,
     said: Mutex<BTreeMap<(usize, usize), Arc<Said>>>,
 }
 
@@ -71,7 +73,15 @@ impl Routes {
             uses.entry(of.lane.clone()).or_default().push(at);
         }
         let (judge, said) = (Mutex::new(judge), Mutex::default());
-        let mut routes = Self { now, carrying, places, by_id, uses, nets: Vec::new(), judge, said };
+        let nets = Vec::new();
+        let mut routes = Self { now, carrying, places, by_id, uses, nets, judge, reach: 0.0, said };
+        let lanes = routes.now.graph.lanes.iter().enumerate();
+        let length = |(at, lane): (usize, &Lane)| {
+            let ends = routes.nodes_of(at);
+            length_m(&routes.now, lane, ends).max(ends[0].at.distance(ends[1].at))
+        };
+        let lengths = lanes.map(length);
+        routes.reach = lengths.fold(0.0, f64::max);
         routes.nets = (0..routes.now.graph.vehicle_types.len()).map(|vehicle| routes.net(vehicle)).collect();
         routes
     }
@@ -178,6 +188,13 @@ impl Routes {
             .map(|(place, node)| (place, far(node)))
             .ok_or_else(|| no_end("there are no nodes".to_owned()))?;
         let id = &self.now.graph.nodes[node].node;
+        // whoever is on a lane is nearer to a node than the longest lane is long
+        if place.is_none() && self.reach > 0.0 && metres > self.reach {
+            let (metres, reach) = (number(metres), number(self.reach));
+            return Err(no_end(format!(
+                "`{text}` is {metres} m from the nearest node, {id}, and no lane is longer than {reach} m"
+            )));
+        }
         let way = if is_start { "starts" } else { "ends" };
         let remark =
             (metres > 0.01).then(|| format!("the route {way} at node {id}, {metres:.2} m from {text}"));

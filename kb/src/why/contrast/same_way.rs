@@ -53,8 +53,8 @@ impl Contrast for SameWay<'_> {
     fn look(&self, weights: &Weights) -> Option<Look> {
         let as_now = self.path.cost(weights);
         // what costs more than this way is not the best
-        let without_limit = || self.rival(weights, f64::INFINITY);
-        let best = self.rival(weights, as_now).or_else(|| as_now.is_finite().then(without_limit).flatten());
+        let within = self.rival(weights, as_now).filter(|(_, cost)| !self.is_turned(*cost, as_now));
+        let best = within.or_else(|| self.rival(weights, f64::INFINITY));
         let Some((best, least)) = best else {
             return Some(Look { own: None, rival: None, least: f64::INFINITY, is_turned: true });
         };

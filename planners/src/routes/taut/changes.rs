@@ -31,7 +31,7 @@ impl Search<'_> {
             };
             // too dear, or reached at less cost otherwise
             let remaining = search.remaining(room, Segment::new(p, p));
-            if search.is_too_dear(cost + least + remaining)
+            if search.is_left_out(cost + least + remaining)
                 || is_vain(search, least)
                 || search.is_cheaper_in(node.room, p, cost - EPSILON, here)
                 || graph.is_on_wall(room, p)
@@ -109,8 +109,8 @@ impl Search<'_> {
         }
     }
 
-    /// Whether all of a rectangle is reached in a room at less cost than a change there from a node, for which it costs so much at
-    /// least.
+    /// Whether each point of a rectangle is reached in a room at less cost than by a change there from a node; `least` is what that
+    /// change costs at least.
     fn is_vain_about(&self, node: &Node, (room, about): (RoomIndex, &Rect), least: f64) -> bool {
         let (here, there) = (self.graph.per_m(node.room), self.graph.per_m(room));
         let way = about.nearest_to(node.root).distance(node.root);
@@ -126,12 +126,12 @@ impl Search<'_> {
     }
 
     /// Whether a change into a room on what a node sees of a segment, which costs so much at least, need not be looked for.
-    fn is_change_too_dear(&mut self, node: &Node, (room, seen): (RoomIndex, Segment), least: f64) -> bool {
+    fn is_change_too_dear(&self, node: &Node, (room, seen): (RoomIndex, Segment), least: f64) -> bool {
         if self.most.is_infinite() {
             return false;
         }
         let way = seen.distance(node.root) * self.graph.per_m(node.room);
-        self.is_too_dear(node.cost + way + least + self.remaining(room, seen))
+        self.is_left_out(node.cost + way + least + self.remaining(room, seen))
     }
 
     /// Into a room anywhere in which a way may end: where that is possible first, not where it pays to go on.

@@ -73,6 +73,8 @@ fn a_lift_is_ridden_between_levels_and_closed_by_name() {
     // any node is an end, and so is a point near one
     let near = site.adit("route", &["0.3,0.4", "L2:1", "--json"]).expecting(0).json();
     assert_eq!(near["remarks"][0], "the route starts at node L1:0, 0.50 m from 0.3,0.4");
+    let refused = "`900,0.4` is 890 m from the nearest node, L1:2, and no lane is longer than 5 m";
+    site.adit("route", &["900,0.4", "L2:1"]).expecting(2).complains(&[refused]);
 }
 
 #[test]
@@ -202,4 +204,12 @@ fn every_property_that_rules_are_told_of_lanes_is_in_the_manual() {
     for name in all {
         assert!(page.contains(&format!("`{name}`")), "{name} is not in manual/src/lane-graphs.md");
     }
+}
+
+#[test]
+fn a_layer_of_which_the_map_gives_nothing_is_said_to_be_empty() {
+    let site = ward();
+    let to = site.path().join("rooms.geojson");
+    let ran = site.adit("export", &["rooms", "--to", to.to_str().unwrap()]).expecting(0);
+    assert!(ran.stderr.contains("`rooms` is empty; layers that are not: "), "{}", ran.stderr);
 }

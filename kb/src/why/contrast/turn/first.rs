@@ -3,7 +3,7 @@
 use super::{Along, Piece};
 use crate::state::tunable::Line;
 use crate::why::contrast::straight::{At, Straight, is_inside};
-use crate::why::contrast::{End, Look, Path, Takeover};
+use crate::why::contrast::{End, Path, Takeover};
 
 /// Rounds in which an end is narrowed at most.
 const ROUNDS: usize = 40;
@@ -64,14 +64,11 @@ impl Along<'_> {
             let value = value.unwrap_or(middle);
             let side = (beyond.value - before.value).signum();
             let tries = if is_exact { [value, value] } else { [value - hair * side, value + hair * side] };
-            let mut last = None;
             for tried in tries {
                 if !is_inside(tried, &before, &beyond) || (tried - before.value) * side <= 0.0 {
                     continue;
                 }
-                let known = last.and_then(|_| won_at(line, tried, &before, &beyond));
-                let at = if let Some(at) = known { at } else { self.glance_at(line, tried)? };
-                last = Some(tried);
+                let at = self.glance_at(line, tried)?;
                 if at.look.is_turned {
                     beyond = at;
                     break;
@@ -124,18 +121,4 @@ impl Along<'_> {
         let is_wide = (far.value - near.value).abs() > 2.0 * self.hair(value);
         (is_won && is_wide && is_inside(value, near, far)).then_some(value)
     }
-}
-
-/// That the others have won at a value a hair beyond one at which they had not, where that follows from what both ways cost.
-fn won_at(line: &Line, value: f64, before: &At, beyond: &At) -> Option<At> {
-    let ((own, _), (rival, _)) = (before.look.own.as_ref()?, beyond.look.rival.as_ref()?);
-    let weights = line.at(value)?;
-    let (own_cost, cost) = (own.cost(&weights), rival.cost(&weights));
-    if own_cost - cost <= BENT * cost {
-        return None;
-    }
-    let share = (value - before.value) / (beyond.value - before.value);
-    let least = before.look.least + (beyond.look.least - before.look.least) * share;
-    let [own, rival] = [(own, own_cost), (rival, cost)].map(|(path, cost)| Some((path.clone(), cost)));
-    Some(At { value, look: Look { own, rival, least, is_turned: true } })
 }
