@@ -8,7 +8,7 @@ use crate::error::{Code, Error, Result};
 use crate::knowledge::LAYOUT;
 use crate::knowledge::tables::truth_of;
 use crate::site::robots::ONLY_ROBOT;
-use crate::words::suggest::did_you_mean;
+use crate::words::suggest::{did_you_mean, listed};
 
 /// A number where the text is one; no value where there is no text.
 pub(super) fn cell(text: &str) -> Cell {
@@ -141,9 +141,10 @@ pub(super) fn explain(tx: &mut Tx<'_>, error: adit_db::Error, table: &str, key: 
         return error.into();
     }
     let help = match &error {
-        adit_db::Error::UnknownKey { .. } => {
-            keys(tx, table).ok().and_then(|keys| did_you_mean(key, keys.iter().map(String::as_str)))
-        }
+        adit_db::Error::UnknownKey { .. } => keys(tx, table).ok().and_then(|keys| {
+            let names = || keys.iter().map(String::as_str);
+            did_you_mean(key, names()).or_else(|| listed("rows", names()))
+        }),
         adit_db::Error::Refused { reason, .. } if reason.starts_with("FOREIGN KEY") => Some(
             "it names a row of another table that is not there: a state must stand in `robots` first"
                 .to_owned(),

@@ -175,15 +175,15 @@ impl Mesh {
         let all = &self.at_end[end as usize];
         let mut rooms: SmallVec<[(RoomIndex, RoomIndex); 8]> = SmallVec::new();
         for &door in all {
-            let RouteDoor { room1, room2, one_way, .. } = &doors[door.index()];
-            let [one, two] = [*room1, *room2].map(|room| {
+            let RouteDoor { room1, room2, .. } = doors[door.index()];
+            let [one, two] = [room1, room2].map(|room| {
                 let known = rooms.iter().find(|(known, _)| *known == room).map(|(_, part)| *part);
                 known.unwrap_or_else(|| {
                     rooms.push((room, room));
                     room
                 })
             });
-            if !one_way && passing(door) == Passing::Free {
+            if passing(door) == Passing::Free {
                 rooms.iter_mut().filter(|(_, part)| *part == two).for_each(|(_, part)| *part = one);
             }
         }

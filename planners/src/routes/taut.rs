@@ -6,6 +6,7 @@
 //! way is refracted, and where the robot changes its shape it may do so at any point of the rim of the free space of
 //! either state: there the search goes on from points of the segment, and [`super::pull`] slides them afterwards.
 
+mod bounds;
 mod changes;
 mod missed;
 
@@ -215,7 +216,7 @@ impl<'g> Search<'g> {
             targets,
             least_per_m: graph.least_per_m(),
             saved_by_arcs,
-            most: slack(limit, saved_by_arcs),
+            most: Self::slack(limit, saved_by_arcs),
             nodes: Vec::new(),
             found: Vec::new(),
             queue: BinaryHeap::new(),
@@ -268,7 +269,7 @@ impl<'g> Search<'g> {
                     }
                     let is_done = self.wanted == Wanted::One || missing == 0 && self.wanted == Wanted::Goals;
                     if is_done && !is_last {
-                        let most = slack(found.cost, self.saved_by_arcs) + self.slid(&found);
+                        let most = Self::slack(found.cost, self.saved_by_arcs) + self.slid(&found);
                         (self.most, is_last) = (self.most.min(most), true);
                     }
                 }
@@ -282,32 +283,6 @@ impl<'g> Search<'g> {
         }
         self.outcome.nodes = self.nodes;
         self.outcome
-    }
-
-    /// Whether a way that costs so much at least need not be looked for.
-    fn is_too_dear(&mut self, least: f64) -> bool {
-        let is_too_dear = least > self.most;
-        self.outcome.is_cut |= is_too_dear;
-        is_too_dear
-    }
-
-    /// Whether what costs so much at least can be left out unseen: it is known that ways were left out, or one was found.
-    fn is_left_out(&self, least: f64) -> bool {
-        least > self.most && (self.outcome.is_cut || !self.found.is_empty())
-    }
-
-    /// A lower limit of what remains in a room from what is seen of a segment.
-    fn remaining(&self, room: RoomIndex, seen: Segment) -> f64 {
-        if self.wanted != Wanted::One || self.least_per_m <= 0.0 {
-            return 0.0;
-        }
-        let through = self.through.as_ref().filter(|(before, _)| before.contains(room.index()));
-        let to = |goal: &Goal| {
-            let Some(at) = goal.at else { return 0.0 };
-            let by = through.map_or(0.0, |(_, by)| seen.bounds().gap(by) + by.nearest_to(at).distance(at));
-            seen.distance(at).max(by)
-        };
-        self.goals.iter().map(to).fold(f64::INFINITY, f64::min) * self.least_per_m
     }
 
     fn push(&mut self, node: Node) {
@@ -543,7 +518,7 @@ impl<'g> Search<'g> {
             if self.wanted == Wanted::One {
                 let slid = self.targets.iter().map(|(room, _)| slid_in(self.graph, *room));
                 let slid = slid.fold(self.slid(&found), f64::max);
-                self.most = self.most.min(slack(found.cost, self.saved_by_arcs) + slid);
+                self.most = self.most.min(Self::slack(found.cost, self.saved_by_arcs) + slid);
             }
             let what = What::Goal(self.found.len() as u32);
             self.found.push((goal, found));
@@ -708,11 +683,6 @@ impl Outcome {
         }
         others.into_values().filter(|(lag, ..)| *lag <= saved).map(|(_, own, other)| (own, other)).collect()
     }
-}
-
-/// What a way may cost before it is pulled tight and still come to cost no more than another one of this cost.
-fn slack(cost: f64, saved_by_arcs: f64) -> f64 {
-    cost * (1.0 + SLACK) + saved_by_arcs + EPSILON
 }
 
 /// What it costs at least to come into a room, by some ways.

@@ -190,9 +190,9 @@ impl Routes {
         let id = &self.now.graph.nodes[node].node;
         // whoever is on a lane is nearer to a node than the longest lane is long
         if place.is_none() && self.reach > 0.0 && metres > self.reach {
-            let (metres, reach) = (number(metres), number(self.reach));
+            let reach = number(self.reach);
             return Err(no_end(format!(
-                "`{text}` is {metres} m from the nearest node, {id}, and no lane is longer than {reach} m"
+                "`{text}` is {metres:.2} m from the nearest node, {id}, and no lane is longer than {reach} m"
             )));
         }
         let way = if is_start { "starts" } else { "ends" };

@@ -7,8 +7,8 @@ use super::super::mesh::Exit;
 use super::super::parts::{Goal, RoomIndex};
 use super::super::turning::Gate;
 use super::{CLOSE_M, EPSILON, Found, NEAR_M, NO_NODE, Node, Search, View, Wanted, is_cheaper_from};
+use crate::geometry::Point;
 use crate::geometry::tolerance::SNAP_M;
-use crate::geometry::{Point, Rect};
 
 impl Search<'_> {
     /// Into another state, to go on from there.
@@ -107,31 +107,6 @@ impl Search<'_> {
                 }
             }
         }
-    }
-
-    /// Whether each point of a rectangle is reached in a room at less cost than by a change there from a node; `least` is what that
-    /// change costs at least.
-    fn is_vain_about(&self, node: &Node, (room, about): (RoomIndex, &Rect), least: f64) -> bool {
-        let (here, there) = (self.graph.per_m(node.room), self.graph.per_m(room));
-        let way = about.nearest_to(node.root).distance(node.root);
-        let limit = node.cost + way * here + least + EPSILON;
-        let known = [&self.reached[room.index()], &self.offered[room.index()]];
-        known.into_iter().flatten().any(|&(q, cost)| {
-            cost < limit && {
-                let dx = (q.x - about.x0).abs().max((q.x - about.x1).abs());
-                let dy = (q.y - about.y0).abs().max((q.y - about.y1).abs());
-                cost + there * dx.hypot(dy) < limit
-            }
-        })
-    }
-
-    /// Whether a change into a room on what a node sees of a segment, which costs so much at least, need not be looked for.
-    fn is_change_too_dear(&self, node: &Node, (room, seen): (RoomIndex, Segment), least: f64) -> bool {
-        if self.most.is_infinite() {
-            return false;
-        }
-        let way = seen.distance(node.root) * self.graph.per_m(node.room);
-        self.is_left_out(node.cost + way + least + self.remaining(room, seen))
     }
 
     /// Into a room anywhere in which a way may end: where that is possible first, not where it pays to go on.

@@ -73,7 +73,7 @@ fn a_lift_is_ridden_between_levels_and_closed_by_name() {
     // any node is an end, and so is a point near one
     let near = site.adit("route", &["0.3,0.4", "L2:1", "--json"]).expecting(0).json();
     assert_eq!(near["remarks"][0], "the route starts at node L1:0, 0.50 m from 0.3,0.4");
-    let refused = "`900,0.4` is 890 m from the nearest node, L1:2, and no lane is longer than 5 m";
+    let refused = "`900,0.4` is 890.00 m from the nearest node, L1:2, and no lane is longer than 5 m";
     site.adit("route", &["900,0.4", "L2:1"]).expecting(2).complains(&[refused]);
 }
 
