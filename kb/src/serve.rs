@@ -61,6 +61,8 @@ pub fn run(mut settings: Settings, ready: impl FnOnce(std::net::SocketAddr)) -> 
     let tokens = tokens(&settings)?;
     live.share()?;
     live.prepare();
+    // what others wrote while the copy was made and opened; what cannot be followed now is followed by the desk, which says why
+    live.follow_others().ok();
     let (jobs, waiting) = sync_channel(QUEUE);
     let shared = Arc::new(Shared::new(settings, desk::seen(&live), tokens, jobs));
     let desk = desk::start(live, Arc::clone(&shared), waiting)?;

@@ -12,7 +12,7 @@ use crate::tape::Recorder;
 /// [`content`], once the routes that are kept have followed the last edit.
 fn settled(site: &TestSite) -> (Content, Files) {
     within("kept routes follow", || {
-        let stale = site.sqlite3("SELECT count(*) FROM route WHERE status = 'stale'");
+        let stale = site.sqlite3("SELECT count(*) FROM stale_marks");
         (stale == ["0"]).then(|| content(site))
     })
 }
