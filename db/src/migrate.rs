@@ -121,8 +121,8 @@ pub(crate) async fn kind(connection: &mut SqliteConnection) -> Result<Kind> {
     })
 }
 
-/// Brings the database up to the last of `steps`, each in a transaction of its own. One that holds data is copied
-/// beside itself first.
+/// Brings the database up to the last of `steps`, each in a transaction of its own, or an empty one all in one. One that holds
+/// data is copied beside itself first.
 pub(crate) async fn migrate(connection: &mut SqliteConnection, path: &Path, steps: &[Step]) -> Result<()> {
     let known = steps.len() as i64;
     match kind(connection).await? {
@@ -141,37 +141,35 @@ pub(crate) async fn migrate_in_place(
     path: &Path,
     steps: &[Step],
 ) -> Result<()> {
-    let made = match kind(connection).await? {
+    let (made, at_once) = match kind(connection).await? {
         Kind::Other => return Err(Error::NotAdit(path.to_owned())),
         Kind::Adit(found) if found == steps.len() as i64 => return Ok(()),
-        Kind::Adit(_) => made_by(steps).await?,
-        Kind::Empty => vec![Made::default(); steps.len()],
+        Kind::Adit(_) => (made_by(steps).await?, 1),
+        Kind::Empty => (vec![Made::default(); steps.len()], steps.len()),
     };
-    for (index, (step, made)) in steps.iter().zip(&made).enumerate() {
-        take(connection, path, index as i64, step, made).await?;
+    let steps: Vec<(i64, &Step, &Made)> =
+        (0..).zip(steps.iter().zip(&made)).map(|(from, (step, made))| (from, step, made)).collect();
+    for steps in steps.chunks(at_once.max(1)) {
+        take(connection, path, steps).await?;
     }
     Ok(())
 }
 
-/// Takes the step from version `from`, unless another program took it while we waited for the lock.
-async fn take(
-    connection: &mut SqliteConnection,
-    path: &Path,
-    from: i64,
-    step: &Step,
-    made: &Made,
-) -> Result<()> {
+/// Takes steps in one transaction, each from its version, unless another program took them while we waited for the lock.
+async fn take(connection: &mut SqliteConnection, path: &Path, steps: &[(i64, &Step, &Made)]) -> Result<()> {
     let mut transaction = connection.begin_with("BEGIN IMMEDIATE").await?;
-    let version: i64 = sqlx::query_scalar("PRAGMA user_version").fetch_one(&mut *transaction).await?;
-    if version != from {
-        return Ok(());
+    for (from, step, made) in steps {
+        let version: i64 = sqlx::query_scalar("PRAGMA user_version").fetch_one(&mut *transaction).await?;
+        if version != *from {
+            continue;
+        }
+        run(&mut transaction, path, step.all, &made.in_all).await?;
+        if worlds::are_kept(&mut transaction).await? {
+            run(&mut transaction, path, step.worlds, &made.for_worlds).await?;
+        }
+        let mark = format!("PRAGMA application_id = {APPLICATION}; PRAGMA user_version = {}", from + 1);
+        sqlx::raw_sql(AssertSqlSafe(mark)).execute(&mut *transaction).await?;
     }
-    run(&mut transaction, path, step.all, &made.in_all).await?;
-    if worlds::are_kept(&mut transaction).await? {
-        run(&mut transaction, path, step.worlds, &made.for_worlds).await?;
-    }
-    let mark = format!("PRAGMA application_id = {APPLICATION}; PRAGMA user_version = {}", from + 1);
-    sqlx::raw_sql(AssertSqlSafe(mark)).execute(&mut *transaction).await?;
     transaction.commit().await?;
     Ok(())
 }
