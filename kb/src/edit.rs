@@ -215,10 +215,12 @@ impl Edit {
 }
 
 impl Edit {
-    /// A word about what an edit leaves as people may not expect it: a cell that does not count, a state whose changes no row prices.
+    /// A word about what an edit leaves as people may not expect it: a cell that does not count, a state whose changes no row
+    /// prices, a closing that ends before another one of the same does.
     pub(crate) fn remark(&self, tx: &mut Tx<'_>, done: &Done) -> Result<Option<String>> {
         match self {
             Self::Add(table, ..) if table == "robots" => unpriced(tx, done),
+            Self::Close(close) => close::for_longer(tx, &close.what, &done.key),
             _ => self.overridden(tx, done),
         }
     }

@@ -25,7 +25,7 @@ pub struct CloseArgs {
     #[arg(long, value_name = "SPACE", conflicts_with_all = ["only", "except"])]
     pub from: Option<String>,
     /// When it ends: `2026-11-21T18:00`, `18:00` (the next one), `2h`
-    #[arg(long, value_name = "TIME")]
+    #[arg(long, value_name = "TIME", visible_alias = "for")]
     pub until: Option<String>,
     /// Why, for the history
     #[arg(long, value_name = "TEXT")]

@@ -27,7 +27,7 @@ pub struct LayArgs {
     #[arg(long, value_name = "PROPERTY=VALUE", value_parser = property)]
     pub with: Vec<(String, String)>,
     /// When it ends: `2026-11-21T18:00`, `18:00` (the next one), `2h`
-    #[arg(long, value_name = "TIME")]
+    #[arg(long, value_name = "TIME", visible_alias = "for")]
     pub until: Option<String>,
     /// Why, for the history
     #[arg(long, value_name = "TEXT")]

@@ -1,10 +1,11 @@
 //! `adit export SITE LAYER`: a layer of the site for a geographic information system.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use adit_db::layer::{Layer, Shape};
 use adit_db::relation::Relation;
-use adit_db::{Cell, Store};
+use adit_db::{Cell, Store, Tx};
 use serde_json::{Map, Value};
 
 use super::args::SiteArgs;
@@ -15,6 +16,9 @@ use crate::site::whole;
 use crate::words::number::counted;
 use crate::words::suggest::did_you_mean;
 
+/// The layer of areas, the table of what is said of each, and its columns that the layer has already.
+const AREAS: (&str, &str, [&str; 4]) = ("map_areas", "areas", ["area", "kind", "x", "y"]);
+
 /// Writes a layer as GeoJSON, in the metres of the map.
 pub fn run(site: &SiteArgs, name: &str, to: &Path) -> Result<()> {
     if !to.extension().is_some_and(|end| end == "geojson" || end == "json") {
@@ -23,20 +27,22 @@ pub fn run(site: &SiteArgs, name: &str, to: &Path) -> Result<()> {
     }
     let knowledge = open(site)?;
     knowledge.spare_own(to)?;
-    let (layer, rows, others) = Store::open_read_only(knowledge.database())?.snapshot(|tx| -> Result<_> {
-        let layers = tx.layers()?;
-        let is_meant = |layer: &&Layer| layer.name == name || layer.table == name;
-        let layer = layers.iter().find(is_meant).ok_or_else(|| unknown(name, &layers))?.clone();
-        let rows = tx.read_table(&layer.table)?;
-        let mut others = Vec::new();
-        for other in layers.into_iter().filter(|_| rows_of(&rows) == 0) {
-            if rows_of(&tx.read_table(&other.table)?) > 0 {
-                others.push(other.name);
+    let (layer, rows, said, others) =
+        Store::open_read_only(knowledge.database())?.snapshot(|tx| -> Result<_> {
+            let layers = tx.layers()?;
+            let is_meant = |layer: &&Layer| layer.name == name || layer.table == name;
+            let layer = layers.iter().find(is_meant).ok_or_else(|| unknown(name, &layers))?.clone();
+            let rows = tx.read_table(&layer.table)?;
+            let mut others = Vec::new();
+            for other in layers.into_iter().filter(|_| rows_of(&rows) == 0) {
+                if rows_of(&tx.read_table(&other.table)?) > 0 {
+                    others.push(other.name);
+                }
             }
-        }
-        Ok((layer, rows, others))
-    })?;
-    let features = features(&layer, &rows)?;
+            let said = if layer.table == AREAS.0 { of_areas(tx)? } else { BTreeMap::new() };
+            Ok((layer, rows, said, others))
+        })?;
+    let features = features(&layer, &rows, &said)?;
     let count = features.len();
     let collection =
         serde_json::json!({"type": "FeatureCollection", "name": layer.name, "features": features});
@@ -62,8 +68,33 @@ fn unknown(name: &str, layers: &[Layer]) -> Error {
     Error::said(Code::LayerUnknown, format!("the site has no layer `{name}`"), Some(help))
 }
 
-/// The rows as features of GeoJSON; one without a shape has `null`, as GeoJSON wants it.
-fn features(layer: &Layer, rows: &Relation) -> Result<Vec<Value>> {
+/// By name what else is said of areas, whatever properties those of the site have.
+fn of_areas(tx: &mut Tx<'_>) -> Result<BTreeMap<String, Map<String, Value>>> {
+    let (_, table, known) = AREAS;
+    if !tx.user_tables()?.iter().any(|of| of.name == table) {
+        return Ok(BTreeMap::new());
+    }
+    let relation = tx.read_table(table)?;
+    let mut said = BTreeMap::<String, Map<String, Value>>::new();
+    let names = relation.columns.iter().find(|column| column.name == known[0]);
+    for (row, name) in names.iter().flat_map(|names| names.values.iter().enumerate()) {
+        let Cell::Text(name) = name else { continue };
+        let of = said.entry(name.clone()).or_default();
+        for column in relation.columns.iter().filter(|column| !known.contains(&column.name.as_str())) {
+            if column.values[row] != Cell::Null {
+                of.insert(column.name.clone(), serde_json::json!(column.values[row]));
+            }
+        }
+    }
+    Ok(said)
+}
+
+/// The rows as features of GeoJSON, each with what else is said of its name; one without a shape has `null`, as GeoJSON wants it.
+fn features(
+    layer: &Layer,
+    rows: &Relation,
+    said: &BTreeMap<String, Map<String, Value>>,
+) -> Result<Vec<Value>> {
     let feature = |row: usize| {
         let (mut properties, mut geometry) = (Map::new(), Value::Null);
         for column in &rows.columns {
@@ -76,6 +107,8 @@ fn features(layer: &Layer, rows: &Relation) -> Result<Vec<Value>> {
                 cell => _ = properties.insert(column.name.clone(), serde_json::json!(cell)),
             }
         }
+        let more = properties.get("name").and_then(Value::as_str).and_then(|name| said.get(name));
+        properties.extend(more.cloned().unwrap_or_default());
         Ok(serde_json::json!({"type": "Feature", "geometry": geometry, "properties": properties}))
     };
     (0..rows_of(rows)).map(feature).collect()

@@ -11,6 +11,7 @@ use super::args::{SimulateArgs, heading};
 use super::kept::{Kept, Of};
 use super::missions::{are_right, filmed, show};
 use super::output::{either, remark};
+use crate::edit::Errand;
 use crate::error::{Code, Error, Result};
 use crate::live::Live;
 use crate::navigation::ground::Ground;
@@ -121,6 +122,8 @@ fn missions(args: &SimulateArgs, on: &Missions<'_>) -> Result<Vec<Mission>> {
     };
     let heading = heading(args.heading)?;
     let ends = [point(on.live, start)?, point(on.live, goal)?];
+    // where the robot fits at neither end there is nothing to drive; without a way between them it finds that out itself
+    on.live.fork().route_after(&[], &Errand::default(), (start, goal), &on.ground.robot)?;
     Ok((0..u64::from(args.missions))
         .map(|number| on.between(ends, heading, args.seed.wrapping_add(number)))
         .collect())

@@ -30,7 +30,7 @@ pub struct TellArgs {
     #[arg(allow_hyphen_values = true)]
     pub value: Option<String>,
     /// When it ends: `2026-11-21T18:00`, `18:00` (the next one), `2h`
-    #[arg(long, value_name = "TIME")]
+    #[arg(long, value_name = "TIME", visible_alias = "for")]
     pub until: Option<String>,
     /// Why, for the history
     #[arg(long, value_name = "TEXT")]

@@ -127,6 +127,28 @@ pub(super) fn open(
     Ok(tx.add_row("told", &row, author)?)
 }
 
+/// A word about what is closed for longer than the fact says that was told last, since another one closes it, too.
+pub(super) fn for_longer(tx: &mut Tx<'_>, what: &str, fact: &str) -> Result<Option<String>> {
+    let told = tx.facts_told()?;
+    let Some(last) = told.iter().find(|other| other.id.to_string() == fact) else { return Ok(None) };
+    let Some(end) = &last.until else { return Ok(None) };
+    let closes_it = |other: &&Row| {
+        other.property == CLOSED
+            && other.value == adit_db::Cell::Integer(1)
+            && (&other.class, &other.key, other.at, other.segment)
+                == (&last.class, &last.key, last.at, last.segment)
+    };
+    let endless = |other: &&Row| (other.until.is_none(), other.until.clone());
+    let longest = told.iter().filter(closes_it).max_by_key(endless).filter(|other| other.id != last.id);
+    Ok(longest.filter(|other| other.until.as_ref().is_none_or(|until| until > end)).map(|other| {
+        let until = other.until.as_ref().map_or_else(
+            || "has it closed without an end".to_owned(),
+            |until| format!("has it closed until {until}"),
+        );
+        format!("{what} stays closed after that: fact {} {until}", other.id)
+    }))
+}
+
 /// Whether a fact closes or opens what a row of facts is about.
 fn is_about(fact: &Row, class: &str, row: &[(&str, adit_db::Cell)]) -> bool {
     let value = |name: &str| row.iter().find(|(column, _)| *column == name).map(|(_, cell)| cell.clone());

@@ -117,7 +117,7 @@ impl State {
         if given.rooms.is_some() || given.doors.is_some() || places.is_some() {
             let mut rooms = given.rooms.unwrap_or_else(|| before.rooms.clone());
             let mut doors = given.doors.unwrap_or_else(|| before.doors.clone());
-            weights::check(knowledge, (&rooms, &doors), None)?;
+            weights::check((knowledge, rules), (&rooms, &doors), None)?;
             look.rooms().for_each(|(room, weight)| rooms[room.index()].weigh(weight));
             look.doors().for_each(|(door, weight)| doors[door.index()].weigh(weight));
             let (old, new) = ((&*before.rooms, &*before.doors), (&*rooms, &*doors));
@@ -130,7 +130,7 @@ impl State {
             cut = Some(Arc::new(SiteGraph::new(rooms, doors, places, building)));
         } else {
             let changes = (!given.is_any).then_some(&changes);
-            weights::check(knowledge, (&before.rooms, &before.doors), changes)?;
+            weights::check((knowledge, rules), (&before.rooms, &before.doors), changes)?;
             weighed = look.weighed(&before.rooms, &before.doors);
         }
         weighed.building = building;

@@ -2,7 +2,7 @@
 
 use adit_db::door::Door;
 use adit_db::room::Room;
-use adit_engine::{Changes, KnowledgeBase as Inference, Value};
+use adit_engine::{Changes, KnowledgeBase as Inference, Operator, Revision, RuleBase, Value};
 use adit_planners::facts::Column;
 
 use crate::error::{Code, Error, Result};
@@ -18,7 +18,7 @@ const LARGEST: f64 = 1e300;
 /// # Arguments
 /// `name` is how messages call the object in a row.
 fn check_all(
-    knowledge: &Inference,
+    (knowledge, rules): (&Inference, &RuleBase),
     (class, property): (&str, &str),
     name: impl Fn(usize) -> String,
 ) -> Result<()> {
@@ -26,20 +26,20 @@ fn check_all(
         Some(Column::Number(values)) => values,
         Some(other) => {
             let kind = if matches!(other, Column::Text(_)) { "texts" } else { "truth values" };
-            let rules = rules(knowledge, (class, property));
-            let message = format!("{class}.{property} must hold numbers, and {rules} gives it {kind}");
+            let by = givers(knowledge, (class, property));
+            let message = format!("{class}.{property} must hold numbers, and {by} gives it {kind}");
             return Err(Error::said(Code::RuleHardness, message, None));
         }
         None => return Ok(()),
     };
     let wrong = |value: &Option<f64>| value.is_some_and(|value| !(0.0..=LARGEST).contains(&value));
     let Some(row) = values.iter().position(wrong) else { return Ok(()) };
-    Err(refusal(knowledge, (class, property), (row, values[row]), name))
+    Err(refusal((knowledge, rules), (class, property), (row, values[row]), name))
 }
 
 /// Checks the hardness of rooms and doors and what of them adds up: of those that an update changed, or of all.
 pub fn check(
-    knowledge: &Inference,
+    (knowledge, rules): (&Inference, &RuleBase),
     (rooms, doors): (&[Room], &[Door]),
     changes: Option<&Changes>,
 ) -> Result<()> {
@@ -51,9 +51,10 @@ pub fn check(
         for property in ["hardness"].into_iter().chain(measures.iter().map(String::as_str)) {
             // one that is declared just now was never looked at
             match changes.filter(|changes| !changes.classes.contains_key("MEASURES")) {
-                None => check_all(knowledge, (class, property), name)?,
+                None => check_all((knowledge, rules), (class, property), name)?,
                 Some(changes) => {
-                    check_rows(knowledge, (class, property), changes.rows(class, property), name)?;
+                    let rows = changes.rows(class, property);
+                    check_rows((knowledge, rules), (class, property), rows, name)?;
                 }
             }
         }
@@ -63,7 +64,7 @@ pub fn check(
 
 /// Checks the objects in these rows, of a class that was checked before.
 fn check_rows(
-    knowledge: &Inference,
+    (knowledge, rules): (&Inference, &RuleBase),
     (class, property): (&str, &str),
     rows: &[u32],
     name: impl Fn(usize) -> String,
@@ -73,31 +74,61 @@ fn check_rows(
         if let Some(Value::Number(value)) = knowledge.value_at(class, row, property)
             && !(0.0..=LARGEST).contains(&value)
         {
-            return Err(refusal(knowledge, (class, property), (row, Some(value)), name));
+            return Err(refusal((knowledge, rules), (class, property), (row, Some(value)), name));
         }
     }
     Ok(())
 }
 
 fn refusal(
-    knowledge: &Inference,
+    (knowledge, rules): (&Inference, &RuleBase),
     (class, property): (&str, &str),
     (row, value): (usize, Option<f64>),
     name: impl Fn(usize) -> String,
 ) -> Error {
+    let found = value.map_or_else(String::new, number);
+    let key = knowledge.key(class, row);
+    let why = key.and_then(|key| knowledge.why(rules, class, &key, property));
+    if let Some(Revision { operator, amount: Some(amount), support, .. }) =
+        why.as_ref().and_then(|why| why.revisions.iter().rev().find(|revision| is_bad(revision)))
+    {
+        // what comes first is what is revised, what comes last why
+        let about = support.witnesses.iter().skip(1).next_back();
+        let about = about.map_or_else(String::new, |of| format!(" for {} {}", of.class, of.key));
+        let message = format!(
+            "rule \"{}\" ({}, line {}) makes the {property} of {} {found}, by `{} {}`{about}",
+            support.rule,
+            support.file,
+            support.line,
+            name(row),
+            operator.sign(),
+            number(*amount)
+        );
+        let help = format!("{property} must be finite and not negative");
+        return Error::said(Code::RuleHardness, message, Some(help));
+    }
     let by = knowledge.justifications(class, property).and_then(|found| {
         let rule = found.of_row.get(row).copied().flatten()?;
         found.rules.get(rule as usize).map(|(rule, _)| format!("rule \"{rule}\""))
     });
-    let by = by.unwrap_or_else(|| rules(knowledge, (class, property)));
-    let found = value.map_or_else(String::new, number);
+    let by = by.unwrap_or_else(|| givers(knowledge, (class, property)));
     let message = format!("{by} gives {} the {property} {found}", name(row));
     let help = format!("{property} must be finite and not negative; revisions count, too");
     Error::said(Code::RuleHardness, message, Some(help))
 }
 
+/// Whether what a revision takes can make a number that does not count of one that does.
+fn is_bad(Revision { operator, amount, .. }: &Revision) -> bool {
+    amount.is_some_and(|amount| match operator {
+        Operator::Times | Operator::Plus | Operator::Max | Operator::Min => {
+            !(0.0..=LARGEST).contains(&amount)
+        }
+        Operator::Minus => !(-LARGEST..=0.0).contains(&amount),
+    })
+}
+
 /// The rules that give a class a property.
-fn rules(knowledge: &Inference, (class, property): (&str, &str)) -> String {
+fn givers(knowledge: &Inference, (class, property): (&str, &str)) -> String {
     let found = knowledge.justifications(class, property);
     let names: Vec<String> =
         found.into_iter().flat_map(|found| found.rules).map(|(rule, _)| format!("rule \"{rule}\"")).collect();

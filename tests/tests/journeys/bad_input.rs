@@ -318,3 +318,22 @@ fn what_is_amiss_with_a_map_is_noted_at_each_build_and_with_its_place() {
         assert!(said.contains("site.toml:11:8: this area is cut at the edge"), "{said}");
     }
 }
+
+#[test]
+fn an_area_that_makes_rooms_less_than_nothing_is_named_with_the_rule() {
+    let site = TestSite::example("starter");
+    let area = "[[area]]\nname = \"slope\"\nrect = [1.0, 1.0, 2.0, 2.0]\nhardness_factor = -1\n";
+    site.write("site.toml", format!("map = \"map.toml\"\nrobots = \"robots.toml\"\n{area}"));
+    let said = ["overlays.rhai", "makes the hardness of room ", "by `* -1` for AREAS slope"];
+    site.adit("build", &[]).expecting(2).complains(&said);
+}
+
+#[test]
+fn a_mission_into_an_obstacle_is_refused_as_a_route_is() {
+    let site = TestSite::example("starter")
+        .with("site.toml", "map = \"map.toml\"\nrobots = \"robots.toml\"\n")
+        .built();
+    for asked in ["route", "simulate"] {
+        site.adit(asked, &["home", "6,0.5"]).expecting(2).complains(&["6,0.5 is inside an obstacle"]);
+    }
+}

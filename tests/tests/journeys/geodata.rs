@@ -226,7 +226,9 @@ fn a_service_follows_what_is_drawn() {
 #[test]
 fn a_layer_is_written_as_geojson() {
     let site = starter();
-    site.adit("lay", &["area", "spill", "1,1 2,1 2,2.5", "--kind", "wet"]).expect_status(0);
+    let heading = ["--with", "heading=90"];
+    site.adit("lay", &[&["area", "spill", "1,1 2,1 2,2.5", "--kind", "wet"][..], &heading].concat())
+        .expect_status(0);
     let file = site.path().join("layer.geojson");
     let export = |layer: &str| {
         site.adit("export", &[layer, "--to", file.to_str().unwrap()]).expect_status(0);
@@ -236,7 +238,7 @@ fn a_layer_is_written_as_geojson() {
         export("areas"),
         json!({"type": "FeatureCollection", "name": "areas", "features": [{"type": "Feature",
             "geometry": {"type": "Polygon", "coordinates": [[[1.0, 1.0], [2.0, 1.0], [2.0, 2.5], [1.0, 1.0]]]},
-            "properties": {"name": "spill", "kind": "wet"}}]})
+            "properties": {"name": "spill", "kind": "wet", "heading": 90.0}}]})
     );
     for (layer, kind, rows) in [
         ("rooms", "Polygon", "rooms"),

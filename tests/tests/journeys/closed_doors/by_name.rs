@@ -441,6 +441,24 @@ fn who_is_kept_out_is_said_for_as_long_as_each_says() {
 }
 
 #[test]
+fn who_closes_for_less_time_than_it_is_closed_already_is_told() {
+    let site = TestSite::example("starter")
+        .with("site.toml", "map = \"map.toml\"\nrobots = \"robots.toml\"\n")
+        .built();
+    let close = |end: &[&str]| site.adit("close", &[&["doorway 1"], end].concat()).expecting(0);
+    assert_eq!(close(&["--for", "2h"]).stderr, "");
+    let shorter = close(&["--until", "1h"]).stderr;
+    assert!(shorter.contains("doorway 1 stays closed after that: fact 1 has it closed until 2"), "{shorter}");
+    assert_eq!(close(&["--for", "3h"]).stderr, "");
+    assert_eq!(close(&[]).stderr, "");
+    let shorter = close(&["--for", "5h"]).stderr;
+    assert!(
+        shorter.contains("doorway 1 stays closed after that: fact 4 has it closed without an end"),
+        "{shorter}"
+    );
+}
+
+#[test]
 fn a_closed_area_is_not_entered() {
     let site = TestSite::example("starter");
     let text = "map = \"map.toml\"\nrobots = \"robots.toml\"\n[[area]]\nname = \"east\"\nrect = [6.5, 0.0, 12.0, 8.0]\n";
