@@ -4,6 +4,7 @@ use adit_db::Tx;
 use adit_db::cell::Cell;
 use adit_db::edit::Edited;
 use adit_db::history::Author;
+use adit_db::robot::{Change, State};
 use serde::Serialize;
 
 use adit_engine::RuleBase;
@@ -138,10 +139,7 @@ impl Edit {
                 let row = tell.row(tx, site, rules, author)?;
                 tx.add_row("told", &row, author)?
             }
-            Self::Close(close) => {
-                let row = close.fact(tx)?.row(tx, site, rules, author)?;
-                tx.add_row("told", &row, author)?
-            }
+            Self::Close(close) => close::close(tx, (site, rules), close, author)?,
             Self::Open(what) => close::open(tx, (site, rules), what, author)?,
             Self::Lay(lay) => lay.apply(tx, (site, rules), author)?,
             Self::Lift(name) => lay::lift(tx, name, author)?,
@@ -216,11 +214,17 @@ impl Edit {
 
 impl Edit {
     /// A word about what an edit leaves as people may not expect it: a cell that does not count, a state whose changes no row
-    /// prices, a closing that ends before another one of the same does.
+    /// prices, what is closed for longer,
+    /// or passed all the same, and what is shut all the same.
     pub(crate) fn remark(&self, tx: &mut Tx<'_>, done: &Done) -> Result<Option<String>> {
         match self {
-            Self::Add(table, ..) if table == "robots" => unpriced(tx, done),
-            Self::Close(close) => close::for_longer(tx, &close.what, &done.key),
+            Self::Add(table, ..) if table == "robots" => unpriced(tx, Some(&done.key)),
+            Self::Table(table, _) if table == "robots" => unpriced(tx, None),
+            Self::Close(close) => match close::for_longer(tx, &close.what, &done.key)? {
+                None => close::open_all_the_same(tx, &close.what, &done.key),
+                word => Ok(word),
+            },
+            Self::Open(what) => close::shut_all_the_same(tx, what),
             _ => self.overridden(tx, done),
         }
     }
@@ -242,16 +246,26 @@ impl Edit {
     }
 }
 
-/// A word about a new state of a robot that has others, where no row says what changing into it or out of it costs.
-fn unpriced(tx: &mut Tx<'_>, done: &Done) -> Result<Option<String>> {
-    let Some((robot, state)) = done.key.split_once('/') else { return Ok(None) };
-    let has_others = tx.states()?.iter().any(|other| other.robot == robot && other.state != state);
-    let is_priced = tx
-        .changes()?
-        .iter()
-        .any(|change| change.robot == robot && (change.from_state == state || change.to_state == state));
-    Ok((has_others && !is_priced).then(|| {
-        format!("no row of changes says what it costs {robot} to change into {state} and out of it: rules alone say it, the shipped ones that it costs nothing")
+/// A word about a state of a robot that has others, where no row says what changing into it or out of it costs: the one of a key, or
+/// those of robots that have such rows for others of their states.
+fn unpriced(tx: &mut Tx<'_>, key: Option<&str>) -> Result<Option<String>> {
+    let (states, changes) = (tx.states()?, tx.changes()?);
+    let is_meant = |of: &&State| match key {
+        Some(key) => key.split_once('/') == Some((&of.robot, &of.state)),
+        None => changes.iter().any(|change| change.robot == of.robot),
+    };
+    let has_others =
+        |of: &&State| states.iter().any(|other| other.robot == of.robot && other.state != of.state);
+    let is_priced = |of: &&State| {
+        let is_of = |change: &Change| change.from_state == of.state || change.to_state == of.state;
+        changes.iter().any(|change| change.robot == of.robot && is_of(change))
+    };
+    let unpriced = states.iter().filter(is_meant).filter(has_others).filter(|of| !is_priced(of));
+    let named: Vec<String> =
+        unpriced.map(|of| format!("{} to change into {} and out of it", of.robot, of.state)).collect();
+    Ok((!named.is_empty()).then(|| {
+        let named = named.join(", nor ");
+        format!("no row of changes says what it costs {named}: rules alone say it, the shipped ones that it costs nothing")
     }))
 }
 

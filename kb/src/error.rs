@@ -39,7 +39,12 @@ impl Error {
 
     /// A file that cannot be read or written.
     pub fn io(doing: &str, path: &Path, error: &std::io::Error) -> Self {
-        Self::said(Code::FileUnreadable, format!("cannot {doing} {}: {error}", path.display()), None)
+        let (reason, help) = if error.kind() == std::io::ErrorKind::InvalidData {
+            ("it is no text in UTF-8".to_owned(), Some("save it as plain text in UTF-8".to_owned()))
+        } else {
+            (error.to_string(), None)
+        };
+        Self::said(Code::FileUnreadable, format!("cannot {doing} {}: {reason}", path.display()), help)
     }
 
     pub(crate) fn into_problems(self) -> Vec<Finding> {

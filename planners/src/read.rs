@@ -19,6 +19,7 @@ mod value;
 mod yaml;
 mod zone_set;
 
+use std::io;
 use std::path::Path;
 
 use crate::world::World;
@@ -49,6 +50,16 @@ pub fn read_world(path: &Path, settings: &MapSettings) -> Result<(World, Vec<Pro
     read(path, settings).map(|(world, report)| (world, report.notes))
 }
 
+/// What a file of text holds.
+pub(crate) fn text_of(path: &Path) -> io::Result<String> {
+    std::fs::read_to_string(path).map_err(|error| match error.kind() {
+        io::ErrorKind::InvalidData => {
+            io::Error::new(error.kind(), "it is no text in UTF-8; save it as plain text in UTF-8")
+        }
+        _ => error,
+    })
+}
+
 fn read(path: &Path, settings: &MapSettings) -> Result<(World, MapReport), MapErrors> {
     settings.check()?;
     let name = path.display().to_string();
@@ -58,7 +69,7 @@ fn read(path: &Path, settings: &MapSettings) -> Result<(World, MapReport), MapEr
         return Err(Problem::of_file(Code::Unreadable, format!("the map `{name}` is no file")).into());
     }
     let text = || {
-        std::fs::read_to_string(path).map_err(|error| {
+        text_of(path).map_err(|error| {
             Problem::of_file(Code::Unreadable, format!("the map `{name}` cannot be read: {error}"))
         })
     };

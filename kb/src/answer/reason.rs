@@ -47,8 +47,12 @@ impl Basis<'_> {
     }
 
     fn all_shut(&self, doors: &[Shut]) -> String {
-        let mut shut: Vec<String> = doors.iter().take(DESCRIBED).filter_map(|of| self.shut(*of)).collect();
-        shut.dedup();
+        let mut shut: Vec<String> = Vec::new();
+        for why in doors.iter().take(DESCRIBED).filter_map(|of| self.shut(*of)) {
+            if !shut.contains(&why) {
+                shut.push(why);
+            }
+        }
         let more = doors.len().saturating_sub(DESCRIBED);
         let more = if more > 0 {
             format!("; and {more} more {}", if more == 1 { "door" } else { "doors" })
@@ -63,6 +67,7 @@ impl Basis<'_> {
         let graph = self.graph;
         let door = match of {
             Shut::Door(door) => graph.door(i64::from(door))?,
+            Shut::Room(room) => return Some(not_entered(graph, room, self.rules)),
             Shut::Closed(boundary) => match graph.closer(boundary) {
                 Closer::Door(door) => door,
                 Closer::Doorway(doorway) => return Some(graph.building.why_closed(doorway)),

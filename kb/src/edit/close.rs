@@ -95,8 +95,7 @@ pub(super) fn open(
         let row = doorway.row(tx, site, rules, author)?;
         facts.extend(told.iter().filter(|fact| is_about(fact, &doorway.class, &row)));
     }
-    let opens = |fact: &&Row| fact.property == CLOSED && fact.value == adit_db::Cell::Integer(0);
-    let is_told = facts.iter().any(opens);
+    let is_told = facts.iter().any(|fact| opens(fact));
     facts.retain(|fact| !opens(fact));
     let mut is_open = || -> Result<bool> {
         Ok(match tell.class.as_str() {
@@ -125,6 +124,93 @@ pub(super) fn open(
     let tell = Tell { value: "false".to_owned(), ..tell };
     let row = tell.row(tx, site, rules, author)?;
     Ok(tx.add_row("told", &row, author)?)
+}
+
+/// Closes something, and takes back what was told of it being open: the last word counts.
+pub(super) fn close(
+    tx: &mut Tx<'_>,
+    (site, rules): (&KnowledgeBase, &RuleBase),
+    close: &Close,
+    author: &Author,
+) -> Result<Edited> {
+    let tell = close.fact(tx)?;
+    let row = tell.row(tx, site, rules, author)?;
+    let told = tx.facts_told()?;
+    for fact in told.iter().filter(|fact| is_about(fact, &tell.class, &row) && opens(fact)) {
+        tx.remove_row("told", &fact.id.to_string(), author)?;
+    }
+    Ok(tx.add_row("told", &row, author)?)
+}
+
+/// Whether a fact says that something is not closed.
+fn opens(fact: &Row) -> bool {
+    fact.property == CLOSED && fact.value == adit_db::Cell::Integer(0)
+}
+
+/// A word about what was closed, and is passed all the same: the doorways of a space of which it is told that they are open.
+pub(super) fn open_all_the_same(tx: &mut Tx<'_>, what: &str, fact: &str) -> Result<Option<String>> {
+    let told = tx.facts_told()?;
+    let is_space = |fact: &&Row| fact.class == "SPACES";
+    let Some(closing) = told.iter().find(|other| other.id.to_string() == fact).filter(is_space) else {
+        return Ok(None);
+    };
+    let building = Building::read(tx)?;
+    let at = closing.at.map(|[x, y]| Point::new(x, y));
+    let space = building.space_named(what.trim()).or_else(|| at.and_then(|at| building.space_at(at)));
+    let Some(space) = space.map(|space| space.space) else { return Ok(None) };
+    let of_space = building.doorways.iter().filter(|of| of.space1 == space || of.space2 == space);
+    let is_told_open = |doorway: &&Doorway| {
+        let middle = Building::segment(doorway).middle();
+        let is_at = |[x, y]: [f64; 2]| Point::new(x, y).distance(middle) <= SNAP_M;
+        doorway.closed != Some(true)
+            && told.iter().any(|fact| fact.class == "DOORWAYS" && opens(fact) && fact.at.is_some_and(is_at))
+    };
+    let open: Vec<String> = of_space.filter(is_told_open).map(Building::name).collect();
+    Ok((!open.is_empty()).then(|| {
+        let (all, is) = (open.join(", "), if open.len() == 1 { "is" } else { "are" });
+        format!("{all} {is} told to be open, and stays so: to close {what} there, too, close {all}")
+    }))
+}
+
+/// A word about what was opened, and is shut all the same: by hours, by what it is, or by another closing.
+pub(super) fn shut_all_the_same(tx: &mut Tx<'_>, what: &str) -> Result<Option<String>> {
+    if tx.site_value(LAYOUT)?.is_some() || place::split(what).is_some() {
+        return Ok(None);
+    }
+    let (class, object) = named(tx, what)?;
+    let building = Building::read(tx)?;
+    let is_doorway_shut = |name: &str| {
+        building
+            .doorway_named(name)
+            .is_some_and(|doorway| doorway.closed == Some(true) || doorway.closed_from.is_some())
+    };
+    let witness = match class {
+        "DOORWAYS" | "NAMED_DOORS" => is_doorway_shut(&object).then(|| object.clone()),
+        "SPACES" => {
+            let space = building.space_named(&object).filter(|space| space.closed == Some(true));
+            space.map(|_| object.clone())
+        }
+        _ => room_shut_in(tx, &object)?,
+    };
+    Ok(witness.map(|witness| {
+        format!("{what} stays shut all the same: `adit why SITE {witness:?}` names the rule that has it so")
+    }))
+}
+
+/// A room of an area, where none of them is entered.
+fn room_shut_in(tx: &mut Tx<'_>, area: &str) -> Result<Option<String>> {
+    let table = tables::kept(tx, "area_rooms")?;
+    let (Some(Column::Text(areas)), Some(Column::Number(numbers))) =
+        (table.column("area"), table.column("room"))
+    else {
+        return Ok(None);
+    };
+    let inside = areas.iter().zip(numbers).filter(|(of, _)| of.as_deref() == Some(area));
+    let inside: Vec<i64> = inside.filter_map(|(_, number)| Some((*number)? as i64)).collect();
+    let mut rooms = tx.rooms()?;
+    rooms.retain(|room| inside.contains(&room.room));
+    let is_shut = !rooms.is_empty() && rooms.iter().all(|room| room.passable.value != Some(true));
+    Ok(rooms.first().filter(|_| is_shut).map(|room| format!("room {}", room.name)))
 }
 
 /// A word about what is closed for longer than the fact says that was told last, since another one closes it, too.

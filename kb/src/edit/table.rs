@@ -9,6 +9,7 @@ use adit_db::history::Author;
 use adit_db::relation::RelationColumn;
 
 use super::cells::{cell_of, columns, explain, is_equal};
+use super::words::gone_with;
 use crate::error::{Code, Error, Result};
 use crate::site::robots::ONLY_ROBOT;
 use crate::site::sheet::Sheet;
@@ -56,7 +57,7 @@ pub(super) fn take(tx: &mut Tx<'_>, table: &str, sheet: &Sheet, author: &Author)
         listed.push(match (column, of) {
             (Some(column), _) => format!("  {}.{column}: {} → {}", edited.key, edited.old, edited.new),
             (None, 1) => format!("  {} is new", edited.key),
-            (None, _) => format!("  {} is gone", edited.key),
+            (None, _) => format!("  {} is gone{}", edited.key, gone_with(&edited.old)),
         });
         first.get_or_insert(edited);
     };

@@ -10,7 +10,7 @@ use super::tuning::{ACTIVE, CELLS};
 use super::{Done, Edit};
 use crate::knowledge::told::Whom;
 use crate::site::journal::FILES;
-use crate::words::number::number;
+use crate::words::number::{counted, number};
 
 /// The table of told facts.
 const FACTS: &str = "told";
@@ -30,7 +30,7 @@ impl Edit {
                 format!("{table}.{key}.{column}: {old} → {new}")
             }
             Self::Add(table, ..) => format!("{table}.{key} is new"),
-            Self::Remove(table, ..) => format!("{table}.{key} is gone"),
+            Self::Remove(table, ..) => format!("{table}.{key} is gone{}", gone_with(old)),
             Self::Table(table, sheet) => format!("{table} is as {} has it: {new}", sheet.path.display()),
             Self::Tell(fact) => {
                 format!("fact {key}: {} {} {} = {}", fact.class, fact.object, fact.property, fact.value)
@@ -77,7 +77,10 @@ impl Edit {
                     (None, Some(_)) if is_switch(new) => format!("undone: tuning {key} is on again{more}"),
                     (Some(_), None) => format!("undone: {} is gone again{more}", called(key, old)),
                     (None, Some(_)) => format!("undone: {} is back{more}", called(key, new)),
-                    _ => format!("undone: {key}: {old} → {new}{more}"),
+                    _ => format!(
+                        "undone: {}: {old} → {new}{more}",
+                        value_of_tuning(key).unwrap_or_else(|| key.clone())
+                    ),
                 }
             }
         }
@@ -140,14 +143,37 @@ fn ends(said: &str, row: &Cell) -> String {
     format!(" {} {said}{understood}", if is_span { "for" } else { "until" })
 }
 
+/// The rows that went with one: `, with 4 rows of changes`.
+pub(super) fn gone_with(row: &Cell) -> String {
+    let rows = object(row).into_iter().flatten().filter_map(|(table, value)| match value {
+        Value::Array(rows) => Some(format!(", with {} of {table}", counted(rows.len(), "row"))),
+        _ => None,
+    });
+    rows.collect()
+}
+
 /// Whether a row says that a tuning is on.
 fn is_switch(row: &Cell) -> bool {
     object(row).is_some_and(|row| row.len() == 1 && row.contains_key("tuning"))
 }
 
-/// A row by its key; a fact, of which that says nothing, with what it says.
+/// A row by its key; a fact, of which that says nothing, with what it says, and a tuning's cell as people know it.
 fn called(key: &str, row: &Cell) -> String {
-    fact(row).map_or_else(|| key.to_owned(), |fact| format!("fact {key} ({fact})"))
+    let cell = || setting(row).and_then(|_| cell_of_tuning(key)).unwrap_or_else(|| key.to_owned());
+    fact(row).map_or_else(cell, |fact| format!("fact {key} ({fact})"))
+}
+
+/// A cell of a tuning by its key, `wet/robots/robot/SQUAT/hardness`: `tuning wet: robots.robot/SQUAT.hardness`.
+fn cell_of_tuning(key: &str) -> Option<String> {
+    let (tuning, rest) = key.split_once('/')?;
+    let (table, rest) = rest.split_once('/')?;
+    let (row, column) = rest.rsplit_once('/')?;
+    Some(format!("tuning {tuning}: {table}.{row}.{column}"))
+}
+
+/// The same where its value is meant.
+fn value_of_tuning(key: &str) -> Option<String> {
+    cell_of_tuning(key.strip_prefix(CELLS)?.strip_prefix('.')?.strip_suffix(".value")?)
 }
 
 /// What a fact says, where a row is one: `DOORS 5,2 passable = false`.

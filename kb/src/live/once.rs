@@ -4,12 +4,13 @@ use std::cell::OnceCell;
 use std::path::Path;
 use std::sync::Arc;
 
+use adit_db::conclusion::Rule as Built;
 use adit_db::history::Author;
 use adit_db::load::Load;
 use adit_db::place::Place;
 use adit_db::route::Route;
 use adit_db::{Store, Tx};
-use adit_engine::{RuleBase, Schema};
+use adit_engine::{Rule, RuleBase, Schema};
 
 use super::memory::Memory;
 use super::report::{Report, unfit_places};
@@ -101,7 +102,9 @@ impl KnowledgeBase {
         let site = self.drafting(store.snapshot(|tx| edit.files(tx))?).shared();
         let inputs = site.inputs(progress)?;
         let work = |tx: &mut Tx<'_>| -> Result<(Done, Report)> {
+            let built = if edit.files(tx)?.is_empty() { tx.rules()? } else { Vec::new() };
             let (done, mut report) = Memory::edit(tx, &site, &inputs, (edit, author), progress)?;
+            report.notes.extend(not_built(&built, &inputs.rules));
             report.notes.extend(edit.remark(tx, &done)?);
             Ok((done, report))
         };
@@ -387,4 +390,22 @@ fn kept(tx: &mut Tx<'_>, robot: &str, start: &str, goals: &[String]) -> Result<O
         }
     }
     Ok(best)
+}
+
+/// A word about rules that were edited since the site was built: what follows from them is done with the next edit.
+fn not_built(built: &[Built], rules: &RuleBase) -> Option<String> {
+    let is_built =
+        |rule: &&Rule| built.iter().any(|of| of.name == rule.name() && of.version == rule.version());
+    let edited = rules.rules().iter().filter(|rule| !is_built(rule));
+    let mut named: Vec<String> =
+        edited.map(|rule| format!("\"{}\" ({}, line {})", rule.name(), rule.file(), rule.line())).collect();
+    let is_gone = |of: &&Built| !rules.rules().iter().any(|rule| rule.name() == of.name);
+    named.extend(built.iter().filter(is_gone).map(|of| format!("\"{}\", which is gone", of.name)));
+    let is_known = !built.is_empty() && !named.is_empty();
+    is_known.then(|| {
+        format!(
+            "rules were edited since the last build, and what follows from them is among this: {}",
+            named.join(", ")
+        )
+    })
 }

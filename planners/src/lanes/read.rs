@@ -36,7 +36,7 @@ pub fn is_lane_graph(path: &Path) -> bool {
 /// Reads a lane graph.
 pub fn read_lane_graph(path: &Path) -> Result<LaneGraph, Problem> {
     let file = path.display().to_string();
-    let text = std::fs::read_to_string(path)
+    let text = crate::read::text_of(path)
         .map_err(|error| Problem::of_file(Code::Unreadable, format!("{file} cannot be read: {error}")))?;
     let stem = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
     let mut graph = parse(&file, &text)?;

@@ -83,7 +83,7 @@ impl Mask {
     /// drawn on a copy of the map's image.
     pub(super) fn lay_over(&self, world: &mut World) -> Result<Vec<Problem>, MapErrors> {
         let name = self.file.display().to_string();
-        let text = fs::read_to_string(&self.file).map_err(|error| {
+        let text = super::text_of(&self.file).map_err(|error| {
             let message = format!("the mask `{name}` cannot be read: {error}");
             self.text.problem(Code::Unreadable, &self.span, message)
         })?;

@@ -1,7 +1,6 @@
 //! Zone sets of VDA 5050 3.0, as areas: other programs draw them, and vehicles are told them.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::fs;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
@@ -66,7 +65,7 @@ impl ZoneSet {
     /// Lays its zones over a world as areas, and gives notes.
     pub(super) fn lay_over(&self, world: &mut World) -> Result<Vec<Problem>, MapErrors> {
         let name = self.file.display().to_string();
-        let text = fs::read_to_string(&self.file).map_err(|error| {
+        let text = super::text_of(&self.file).map_err(|error| {
             let message = format!("the zone set `{name}` cannot be read: {error}");
             self.text.problem(Code::Unreadable, &self.span, message)
         })?;

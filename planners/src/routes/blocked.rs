@@ -2,6 +2,7 @@
 
 use std::collections::VecDeque;
 
+use super::closed::NO_DOOR;
 use super::graph::RouteGraph;
 use super::parts::{DoorIndex, Goal, RoomIndex, Start};
 
@@ -21,6 +22,8 @@ pub enum Shut {
     Door(u32),
     /// A [closed](RouteGraph::closed) boundary, by index.
     Closed(usize),
+    /// A room that is not entered.
+    Room(RoomIndex),
 }
 
 /// The fewest doors that would have to be passable to reach the goal. O(rooms + doors).
@@ -30,6 +33,9 @@ pub fn blockage(graph: &RouteGraph, start: &Start, goal: &Goal) -> Blockage {
             let (start, goal) = cut.ends(start, goal);
             let of = |door: DoorIndex| match cut.doors[door.index()] {
                 Some(door) => Shut::Door(graph[door].door),
+                None if cut.graph[door].door == NO_DOOR => {
+                    Shut::Room(cut.rooms[cut.graph[door].room1.index()])
+                }
                 None => Shut::Closed(cut.graph[door].door as usize),
             };
             shut_between(&cut.graph, (&start, &goal), of)

@@ -14,7 +14,7 @@ use crate::geometry::tolerance::SNAP_M;
 use crate::geometry::{Convex, Point, Rect};
 
 /// The key of an opening between two parts of a room.
-const NO_DOOR: u32 = u32::MAX;
+pub(super) const NO_DOOR: u32 = u32::MAX;
 
 /// So near to a closed boundary no shape is changed, metres.
 pub(super) const CLEAR_M: f64 = 0.01;

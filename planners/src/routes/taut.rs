@@ -14,6 +14,7 @@ use std::cmp::Ordering;
 use std::collections::{BTreeMap, BinaryHeap, HashMap, HashSet};
 use std::rc::Rc;
 
+use bounds::{hardly_less, hardly_more};
 use fixedbitset::FixedBitSet;
 use smallvec::SmallVec;
 
@@ -319,7 +320,7 @@ impl<'g> Search<'g> {
         let end = if node.bent { self.end_at(&node) } else { NONE };
         if end != NONE {
             let bent = self.bent_at(end, node.room);
-            if *bent < node.cost - EPSILON {
+            if *bent < hardly_less(node.cost) {
                 self.outcome.passed_over.push(index);
                 return;
             }
@@ -385,11 +386,12 @@ impl<'g> Search<'g> {
         let per_m = self.graph.per_m(room);
         let (samples, count) = Self::samples(node);
         // what looks in all directions is needed once; what looks in some must give way to nothing that costs the same
-        let slack = if node.view == View::All && node.before != NO_NODE { EPSILON } else { -EPSILON };
+        let yields_to_equal = node.view == View::All && node.before != NO_NODE;
         samples[..count].iter().all(|&p| {
             let cost = node.cost + per_m * node.root.distance(p);
-            self.is_cheaper_in(room, p, cost + slack, per_m)
-                || self.is_cheaper_by_a_change(room, p, cost - EPSILON, per_m)
+            let limit = if yields_to_equal { hardly_more(cost) } else { hardly_less(cost) };
+            self.is_cheaper_in(room, p, limit, per_m)
+                || self.is_cheaper_by_a_change(room, p, hardly_less(cost), per_m)
         })
     }
 
@@ -427,7 +429,7 @@ impl<'g> Search<'g> {
         let (samples, count) = Self::samples(node);
         for &p in &samples[..count] {
             let cost = node.cost + per_m * node.root.distance(p);
-            if !self.is_cheaper_in(room, p, cost + EPSILON, per_m) {
+            if !self.is_cheaper_in(room, p, hardly_more(cost), per_m) {
                 self.reached[room.index()].push((p, cost));
             }
         }
@@ -538,7 +540,7 @@ impl<'g> Search<'g> {
             let view = View::Side { from: node.root, left };
             let bent = Node { root, cost, before: index, bent: true, view, ..*node };
             let least = *self.bent_at(end, node.room);
-            if cost <= least + EPSILON {
+            if cost <= hardly_more(least) {
                 self.push(bent);
             } else if cost <= least + self.saved_by_arcs {
                 self.outcome.passed_over.push(self.nodes.len() as u32);
@@ -574,7 +576,7 @@ impl<'g> Search<'g> {
             let there = self.graph.per_m(room);
             for p in self.points(room, seen, node.root) {
                 let next = Node { stop: door, ..next(p, node.root.distance(p), View::All) };
-                if door != node.door || !self.is_cheaper_in(room, p, next.cost + EPSILON, there) {
+                if door != node.door || !self.is_cheaper_in(room, p, hardly_more(next.cost), there) {
                     self.push(next);
                 }
             }

@@ -337,3 +337,32 @@ fn a_mission_into_an_obstacle_is_refused_as_a_route_is() {
         site.adit(asked, &["home", "6,0.5"]).expecting(2).complains(&["6,0.5 is inside an obstacle"]);
     }
 }
+
+/// Where what a change of shape costs is lost in rounding, a search went round and round for ever.
+#[test]
+fn a_hardness_beside_which_all_others_are_lost_in_rounding_is_searched_as_any_other() {
+    let site = TestSite::example("starter")
+        .with("site.toml", "map = \"map.toml\"\nrobots = \"robots.toml\"\n")
+        .built();
+    let cost = || site.adit("route", &["home", "window", "--json"]).json()["cost"].as_f64().unwrap();
+    let easy = cost();
+    for hardness in ["1e16", "1e17", "1e100", "1e299"] {
+        site.adit("tune", &["robots", "SQUAT", "hardness", hardness]).expect_status(0);
+        assert!(cost() >= easy);
+    }
+    let said = site.adit("tune", &["robots", "SQUAT", "hardness", "4"]).expecting(0).stdout;
+    assert!(said.contains("1e299 → 4"), "{said}");
+    assert!((cost() - easy).abs() < 1e-9);
+}
+
+#[test]
+fn files_that_are_no_text_in_utf_8_are_named_with_what_to_do() {
+    let utf_16 = b"\xff\xfea\x00 \x00=\x00 \x001\x00";
+    for file in ["robots.toml", "map.toml", "site.toml", "rules/mine.rhai"] {
+        let site = TestSite::example("paper").built();
+        fs::create_dir_all(site.path().join("rules")).unwrap();
+        fs::write(site.path().join(file), utf_16).unwrap();
+        let said = [file, "it is no text in UTF-8", "save it as plain text in UTF-8"];
+        site.adit("build", &["--reseed"]).expecting(2).complains(&said);
+    }
+}

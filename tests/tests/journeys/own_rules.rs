@@ -1,4 +1,5 @@
 //! A site's rules lie over others, and are never ignored in silence: what they replace is said, and what does not count.
+#![allow(clippy::unwrap_used)] // in a test a failed unwrap is a failed test
 
 use adit_tests::TestSite;
 
@@ -300,4 +301,24 @@ fn misspelt_keys_of_sites_and_worlds_are_refused() {
     let folder = world(&shipped_world("corridor-S.toml"), "channels/corrected");
     folder.edit("world.toml", "rules =", "rule =");
     run(&folder, &["route", "world.toml", "start", "goal"]).expecting(2).complains(&["`rule`"]);
+}
+
+#[test]
+fn an_edit_says_which_rules_were_edited_since_the_build_and_count_with_it() {
+    let site = TestSite::example("starter")
+        .with("site.toml", "map = \"map.toml\"\nrobots = \"robots.toml\"\n")
+        .built();
+    let tune = |value: &str| site.adit("tune", &["robots", "SQUAT", "hardness", value]).expecting(0).stderr;
+    assert_eq!(tune("5"), "");
+    let rule = "revise \"draughty\"\n    each room in ROOMS where room.y0 < 4.0\n    set room.hardness by * 2 level 10\n";
+    site.write("rules/draughty.rhai", rule);
+    let edited = tune("6");
+    assert!(
+        edited.contains("rules were edited since the last build") && edited.contains("\"draughty\" ("),
+        "{edited}"
+    );
+    assert_eq!(tune("7"), "");
+    std::fs::remove_file(site.path().join("rules/draughty.rhai")).unwrap();
+    let gone = tune("8");
+    assert!(gone.contains("\"draughty\", which is gone"), "{gone}");
 }

@@ -213,3 +213,18 @@ book.save('wrong.xlsx')
     }
     assert_eq!(site.sqlite3("SELECT * FROM orders"), orders);
 }
+
+#[test]
+fn a_state_whose_name_is_misspelt_in_a_file_is_said_to_take_its_changes_with_it() {
+    let site = TestSite::example("starter")
+        .with("site.toml", "map = \"map.toml\"\nrobots = \"robots.toml\"\n")
+        .built();
+    let file = at(&site, "robots.csv");
+    site.adit("table", &["robots", "--to", &file]).expect_status(0);
+    site.edit("robots.csv", "SQUAT", "SQAT");
+    let said = site.adit("table", &["robots", "--from", &file]).expecting(0);
+    assert!(said.stdout.contains("robot/SQUAT is gone, with 4 rows of changes"), "{}", said.stdout);
+    assert!(said.stderr.contains("what it costs robot to change into SQAT and out of it"), "{}", said.stderr);
+    let gone = site.adit("tune", &["robots", "--remove", "SQAT"]).expecting(0).stdout;
+    assert!(gone.contains("robots.robot/SQAT is gone\n"), "{gone}");
+}

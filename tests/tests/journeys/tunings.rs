@@ -106,3 +106,14 @@ fn what_a_table_would_refuse_a_tuning_cannot_set() {
     assert_eq!(site.sqlite3("SELECT value FROM tuning_cells"), ["3.0"]);
     assert_eq!(site.sqlite3("SELECT hardness FROM robots WHERE state = 'SQUAT'"), ["4.0"]);
 }
+
+#[test]
+fn what_is_undone_of_a_tuning_is_called_as_people_know_it() {
+    let site = with_night();
+    site.adit("tuning", &["night", "set", "robots", "SQUAT", "hardness", "4"]).expect_status(0);
+    let undone = || site.adit("undo", &[]).expecting(0).stdout;
+    let value = undone();
+    assert!(value.starts_with("undone: tuning night: robots.robot/SQUAT.hardness: 4 → 3"), "{value}");
+    let cell = undone();
+    assert!(cell.starts_with("undone: tuning night: robots.robot/SQUAT.hardness is gone again"), "{cell}");
+}

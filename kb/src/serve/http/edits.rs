@@ -26,7 +26,7 @@ const TOGETHER: usize = 1_000;
 
 /// A value as JSON has it: a number, a text, a truth value, or null for none.
 #[derive(Debug, Deserialize)]
-#[serde(untagged)]
+#[serde(untagged, expecting = "expected a number, a text, true, false or null")]
 pub enum Scalar {
     Truth(bool),
     Number(serde_json::Number),

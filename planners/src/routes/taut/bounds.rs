@@ -6,10 +6,27 @@ use super::super::parts::{Goal, RoomIndex};
 use super::{EPSILON, Node, SLACK, Search, Wanted};
 use crate::geometry::Rect;
 
+/// Costs that differ by no more than this share of them are the same but for rounding.
+const SAME: f64 = 1e-13;
+
+/// What is more than a cost but for rounding, however large it is.
+pub(super) fn hardly_more(cost: f64) -> f64 {
+    cost + rounding(cost)
+}
+
+/// What is less than a cost but for rounding, however large it is.
+pub(super) fn hardly_less(cost: f64) -> f64 {
+    cost - rounding(cost)
+}
+
+fn rounding(cost: f64) -> f64 {
+    if cost.is_finite() { EPSILON.max(SAME * cost.abs()) } else { 0.0 }
+}
+
 impl Search<'_> {
     /// What a way may cost before it is pulled tight and still come to cost no more than another one of this cost.
     pub(super) fn slack(cost: f64, saved_by_arcs: f64) -> f64 {
-        cost * (1.0 + SLACK) + saved_by_arcs + EPSILON
+        hardly_more(cost * (1.0 + SLACK) + saved_by_arcs)
     }
 
     /// Whether a way that costs so much at least need not be looked for.
@@ -43,7 +60,7 @@ impl Search<'_> {
     pub(super) fn is_vain_about(&self, node: &Node, (room, about): (RoomIndex, &Rect), least: f64) -> bool {
         let (here, there) = (self.graph.per_m(node.room), self.graph.per_m(room));
         let way = about.nearest_to(node.root).distance(node.root);
-        let limit = node.cost + way * here + least + EPSILON;
+        let limit = hardly_more(node.cost + way * here + least);
         let known = [&self.reached[room.index()], &self.offered[room.index()]];
         known.into_iter().flatten().any(|&(q, cost)| {
             cost < limit && {

@@ -6,7 +6,8 @@ use super::super::cone::Segment;
 use super::super::mesh::Exit;
 use super::super::parts::{Goal, RoomIndex};
 use super::super::turning::Gate;
-use super::{CLOSE_M, EPSILON, Found, NEAR_M, NO_NODE, Node, Search, View, Wanted, is_cheaper_from};
+use super::bounds::{hardly_less, hardly_more};
+use super::{CLOSE_M, Found, NEAR_M, NO_NODE, Node, Search, View, Wanted, is_cheaper_from};
 use crate::geometry::Point;
 use crate::geometry::tolerance::SNAP_M;
 
@@ -25,7 +26,7 @@ impl Search<'_> {
         let reach = |search: &mut Self, p: Point| {
             let cost = node.cost + node.root.distance(p) * here;
             let is_vain = |search: &Self, weight: f64| {
-                let limit = cost + weight + EPSILON;
+                let limit = hardly_more(cost + weight);
                 search.is_cheaper_in(room, p, limit, there)
                     || is_cheaper_from(&search.offered[room.index()], p, limit, there)
             };
@@ -33,7 +34,7 @@ impl Search<'_> {
             let remaining = search.remaining(room, Segment::new(p, p));
             if search.is_left_out(cost + least + remaining)
                 || is_vain(search, least)
-                || search.is_cheaper_in(node.room, p, cost - EPSILON, here)
+                || search.is_cheaper_in(node.room, p, hardly_less(cost), here)
                 || graph.is_on_wall(room, p)
             {
                 return;

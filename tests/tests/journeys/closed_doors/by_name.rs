@@ -442,9 +442,7 @@ fn who_is_kept_out_is_said_for_as_long_as_each_says() {
 
 #[test]
 fn who_closes_for_less_time_than_it_is_closed_already_is_told() {
-    let site = TestSite::example("starter")
-        .with("site.toml", "map = \"map.toml\"\nrobots = \"robots.toml\"\n")
-        .built();
+    let site = starter();
     let close = |end: &[&str]| site.adit("close", &[&["doorway 1"], end].concat()).expecting(0);
     assert_eq!(close(&["--for", "2h"]).stderr, "");
     let shorter = close(&["--until", "1h"]).stderr;
@@ -456,6 +454,49 @@ fn who_closes_for_less_time_than_it_is_closed_already_is_told() {
         shorter.contains("doorway 1 stays closed after that: fact 4 has it closed without an end"),
         "{shorter}"
     );
+}
+
+fn starter() -> TestSite {
+    TestSite::example("starter").with("site.toml", "map = \"map.toml\"\nrobots = \"robots.toml\"\n").built()
+}
+
+#[test]
+fn the_last_word_on_whether_something_is_open_counts_or_it_is_said_what_stands_against_it() {
+    let site = starter();
+    let is_open = || site.adit("route", &["home", "window"]).status == 0;
+    site.adit("close", &["window"]).expect_status(0);
+    site.adit("open", &["doorway 1"]).expect_status(0);
+    site.adit("open", &["window"]).expect_status(0);
+    let said = site.adit("close", &["window"]).expecting(0).stderr;
+    assert!(is_open() && said.contains("doorway 1 is told to be open, and stays so"), "{said}");
+    site.adit("close", &["doorway 1"]).expect_status(0);
+    assert!(!is_open());
+    // that it was open once is no longer told
+    let said = site.adit("open", &["doorway 1"]).expecting(0).stderr;
+    assert!(!is_open() && said.contains("doorway 1 stays shut all the same"), "{said}");
+    site.adit("undo", &[]).expect_status(0);
+    site.adit("undo", &[]).expect_status(0);
+    assert!(is_open());
+    site.adit("open", &["window"]).expect_status(0);
+    site.adit("lay", &["area", "stairs", "5,2 7,6", "--kind", "keep-out"]).expect_status(0);
+    let said = site.adit("open", &["stairs"]).expecting(0).stderr;
+    assert!(said.contains("stairs stays shut all the same: `adit why SITE \"room "), "{said}");
+}
+
+#[test]
+fn a_one_way_area_that_is_closed_is_why_there_is_no_route() {
+    for heading in ["heading=0", "heading=180"] {
+        let site = starter();
+        site.adit("lay", &["area", "ramp", "5,2 7,6", "--with", heading]).expect_status(0);
+        site.adit("close", &["ramp"]).expect_status(0);
+        for ends in [["home", "window"], ["window", "home"]] {
+            let none = site.adit("route", &ends).expecting(1).stdout;
+            let why = site.adit("why", &ends).expecting(0).stdout;
+            for said in [none, why] {
+                assert!(said.contains("is not entered (rule \"a closed area is not entered\")"), "{said}");
+            }
+        }
+    }
 }
 
 #[test]
@@ -494,9 +535,7 @@ fn an_area_is_closed_to_one_robot_and_who_is_in_it_comes_out() {
 
 #[test]
 fn what_is_closed_stays_closed_when_the_map_changes() {
-    let site = TestSite::example("starter")
-        .with("site.toml", "map = \"map.toml\"\nrobots = \"robots.toml\"\n")
-        .built();
+    let site = starter();
     assert_eq!(site.sqlite3("SELECT count(*) FROM doorways"), ["1"]);
     site.adit("close", &["doorway 1"]).expect_status(0);
     site.edit("map.toml", "rect = [5.9, 0.0, 6.1, 3.0]", "rect = [5.8, 0.0, 6.2, 2.9]");
