@@ -22,6 +22,7 @@ mod report;
 mod reshape;
 mod revise;
 mod undo;
+pub(crate) mod unmet;
 mod why;
 mod why_not;
 

@@ -52,6 +52,7 @@ pub use knowledge::consultation::{Consultation, Datum, Grain};
 pub use knowledge::dominated::Dominated;
 pub use knowledge::facts::FactError;
 pub use knowledge::misspelt::Misspelt;
+pub use knowledge::unmet::Unmet;
 pub use reactions::{Activation, CarriedOut, Firing, Reactions, Told};
 pub use rejection::{Rejected, Rejection, WhyNot};
 pub use rule::{Operator, PropertyName, Rule};

@@ -139,7 +139,10 @@ impl Edit {
                 let row = tell.row(tx, site, rules, author)?;
                 tx.add_row("told", &row, author)?
             }
-            Self::Close(close) => close::close(tx, (site, rules), close, author)?,
+            Self::Close(close) => {
+                let row = close.fact(tx)?.row(tx, site, rules, author)?;
+                tx.add_row("told", &row, author)?
+            }
             Self::Open(what) => close::open(tx, (site, rules), what, author)?,
             Self::Lay(lay) => lay.apply(tx, (site, rules), author)?,
             Self::Lift(name) => lay::lift(tx, name, author)?,

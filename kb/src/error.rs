@@ -40,7 +40,7 @@ impl Error {
     /// A file that cannot be read or written.
     pub fn io(doing: &str, path: &Path, error: &std::io::Error) -> Self {
         let (reason, help) = if error.kind() == std::io::ErrorKind::InvalidData {
-            ("it is no text in UTF-8".to_owned(), Some("save it as plain text in UTF-8".to_owned()))
+            ("it is not UTF-8 text".to_owned(), Some("save it as plain text in UTF-8".to_owned()))
         } else {
             (error.to_string(), None)
         };

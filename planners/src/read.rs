@@ -54,7 +54,7 @@ pub fn read_world(path: &Path, settings: &MapSettings) -> Result<(World, Vec<Pro
 pub(crate) fn text_of(path: &Path) -> io::Result<String> {
     std::fs::read_to_string(path).map_err(|error| match error.kind() {
         io::ErrorKind::InvalidData => {
-            io::Error::new(error.kind(), "it is no text in UTF-8; save it as plain text in UTF-8")
+            io::Error::new(error.kind(), "it is not UTF-8 text; save it as plain text in UTF-8")
         }
         _ => error,
     })

@@ -15,6 +15,7 @@ mod by_hierarchy;
 mod closed;
 mod compact;
 mod cone;
+mod cost;
 mod gates;
 mod graph;
 mod hierarchy;

@@ -1,5 +1,7 @@
 //! A text that a rule asks for, and that nothing holds though something holds nearly the same, is named with what was meant.
 
+use adit_engine::Class;
+
 use crate::support::{concluded, robots, rules, things};
 
 fn found(source: &str) -> Vec<String> {
@@ -38,4 +40,24 @@ fn what_rules_give_themselves_may_hold_anything() {
         rule "low" each t in THINGS where t.state == "SQAT" then { t.low = true; }
     "#;
     assert!(found(source).is_empty());
+}
+
+#[test]
+fn cells_that_name_an_object_of_another_class_name_one_that_is_there() {
+    let said = |state: &str| {
+        let source = r#"
+            property THINGS.worn names ROBOTS.state;
+            rule "worn" each t in THINGS where t.worn.hardness > 1 then { t.hard = true; }
+        "#;
+        let worn =
+            Class::new("THINGS", &["thing"]).texts("thing", [Some("hat")]).texts("worn", [Some(state)]);
+        let (base, _) = concluded(source, [robots(), worn]);
+        base.unmet(&rules(source)).iter().map(ToString::to_string).collect::<Vec<_>>()
+    };
+    assert!(said("SQUAT").is_empty());
+    assert_eq!(
+        said("SQAT"),
+        ["THINGS hat has worn \"SQAT\", and ROBOTS has no such row: did you mean \"SQUAT\"?"]
+    );
+    assert_eq!(said("SWIM"), ["THINGS hat has worn \"SWIM\", and ROBOTS has no such row"]);
 }

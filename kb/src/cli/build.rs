@@ -171,7 +171,7 @@ pub fn changes(said: &str, report: &Report) {
     reacted(report);
     conclusions(report);
     if report.rooms.total == 0 && !report.cut_anew && report.course.is_none() {
-        return;
+        return notes(report);
     }
     if report.course.is_some() {
         // there are no rooms that could change

@@ -122,7 +122,7 @@ fn missions(args: &SimulateArgs, on: &Missions<'_>) -> Result<Vec<Mission>> {
     };
     let heading = heading(args.heading)?;
     let ends = [point(on.live, start)?, point(on.live, goal)?];
-    // where the robot fits at neither end there is nothing to drive; without a way between them it finds that out itself
+    // where the robot does not fit at one of the ends there is nothing to drive; without a way between them it finds that out itself
     on.live.fork().route_after(&[], &Errand::default(), (start, goal), &on.ground.robot)?;
     Ok((0..u64::from(args.missions))
         .map(|number| on.between(ends, heading, args.seed.wrapping_add(number)))

@@ -3,12 +3,17 @@
 use adit_db::Tx;
 use adit_db::cell::Cell;
 use adit_db::relation::RelationColumn;
+use serde_json::{Map, Value};
 
 use crate::error::{Code, Error, Result};
 use crate::knowledge::LAYOUT;
 use crate::knowledge::tables::truth_of;
 use crate::site::robots::ONLY_ROBOT;
+use crate::words::number::counted;
 use crate::words::suggest::{did_you_mean, listed};
+
+/// The largest number that tables take.
+const LARGEST: f64 = 1e300;
 
 /// A number where the text is one; no value where there is no text.
 pub(super) fn cell(text: &str) -> Cell {
@@ -135,6 +140,17 @@ pub(super) fn row(
     Ok(row)
 }
 
+/// The rows that went with one, which the history keeps as JSON: `, with 4 rows of changes`.
+pub(super) fn gone_with(row: &Cell) -> String {
+    let Cell::Text(text) = row else { return String::new() };
+    let row: Map<String, Value> = serde_json::from_str(text).unwrap_or_default();
+    let rows = row.iter().filter_map(|(table, value)| match value {
+        Value::Array(rows) => Some(format!(", with {} of {table}", counted(rows.len(), "row"))),
+        _ => None,
+    });
+    rows.collect()
+}
+
 /// The store's error; of what the table does not take, with the row that was probably meant, or the value that was refused.
 pub(super) fn explain(tx: &mut Tx<'_>, error: adit_db::Error, table: &str, key: &str, value: &str) -> Error {
     if Code::from(&error) != Code::DatabaseRefused {
@@ -149,6 +165,9 @@ pub(super) fn explain(tx: &mut Tx<'_>, error: adit_db::Error, table: &str, key: 
             "it names a row of another table that is not there: a state must stand in `robots` first"
                 .to_owned(),
         ),
+        adit_db::Error::Refused { .. } if value.parse().is_ok_and(|value: f64| value.abs() > LARGEST) => {
+            Some(format!("numbers up to {LARGEST:e} are kept"))
+        }
         _ => None,
     };
     if let adit_db::Error::Refused { reason, .. } = &error {

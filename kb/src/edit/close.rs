@@ -126,22 +126,6 @@ pub(super) fn open(
     Ok(tx.add_row("told", &row, author)?)
 }
 
-/// Closes something, and takes back what was told of it being open: the last word counts.
-pub(super) fn close(
-    tx: &mut Tx<'_>,
-    (site, rules): (&KnowledgeBase, &RuleBase),
-    close: &Close,
-    author: &Author,
-) -> Result<Edited> {
-    let tell = close.fact(tx)?;
-    let row = tell.row(tx, site, rules, author)?;
-    let told = tx.facts_told()?;
-    for fact in told.iter().filter(|fact| is_about(fact, &tell.class, &row) && opens(fact)) {
-        tx.remove_row("told", &fact.id.to_string(), author)?;
-    }
-    Ok(tx.add_row("told", &row, author)?)
-}
-
 /// Whether a fact says that something is not closed.
 fn opens(fact: &Row) -> bool {
     fact.property == CLOSED && fact.value == adit_db::Cell::Integer(0)
@@ -150,7 +134,7 @@ fn opens(fact: &Row) -> bool {
 /// A word about what was closed, and is passed all the same: the doorways of a space of which it is told that they are open.
 pub(super) fn open_all_the_same(tx: &mut Tx<'_>, what: &str, fact: &str) -> Result<Option<String>> {
     let told = tx.facts_told()?;
-    let is_space = |fact: &&Row| fact.class == "SPACES";
+    let is_space = |fact: &&Row| fact.class == "SPACES" && fact.property == CLOSED;
     let Some(closing) = told.iter().find(|other| other.id.to_string() == fact).filter(is_space) else {
         return Ok(None);
     };
@@ -167,8 +151,9 @@ pub(super) fn open_all_the_same(tx: &mut Tx<'_>, what: &str, fact: &str) -> Resu
     };
     let open: Vec<String> = of_space.filter(is_told_open).map(Building::name).collect();
     Ok((!open.is_empty()).then(|| {
-        let (all, is) = (open.join(", "), if open.len() == 1 { "is" } else { "are" });
-        format!("{all} {is} told to be open, and stays so: to close {what} there, too, close {all}")
+        let all = open.join(", ");
+        let (was, stays) = if open.len() == 1 { ("was", "stays") } else { ("were", "stay") };
+        format!("{all} {was} declared open and {stays} open: to close {what} there, too, close {all}")
     }))
 }
 
@@ -177,6 +162,7 @@ pub(super) fn shut_all_the_same(tx: &mut Tx<'_>, what: &str) -> Result<Option<St
     if tx.site_value(LAYOUT)?.is_some() || place::split(what).is_some() {
         return Ok(None);
     }
+    let what = what.trim();
     let (class, object) = named(tx, what)?;
     let building = Building::read(tx)?;
     let is_doorway_shut = |name: &str| {
@@ -192,9 +178,7 @@ pub(super) fn shut_all_the_same(tx: &mut Tx<'_>, what: &str) -> Result<Option<St
         }
         _ => room_shut_in(tx, &object)?,
     };
-    Ok(witness.map(|witness| {
-        format!("{what} stays shut all the same: `adit why SITE {witness:?}` names the rule that has it so")
-    }))
+    Ok(witness.map(|witness| format!("{what} stays shut all the same: `adit why SITE {witness:?}` says why")))
 }
 
 /// A room of an area, where none of them is entered.
@@ -228,8 +212,8 @@ pub(super) fn for_longer(tx: &mut Tx<'_>, what: &str, fact: &str) -> Result<Opti
     let longest = told.iter().filter(closes_it).max_by_key(endless).filter(|other| other.id != last.id);
     Ok(longest.filter(|other| other.until.as_ref().is_none_or(|until| until > end)).map(|other| {
         let until = other.until.as_ref().map_or_else(
-            || "has it closed without an end".to_owned(),
-            |until| format!("has it closed until {until}"),
+            || "keeps it closed indefinitely".to_owned(),
+            |until| format!("keeps it closed until {until}"),
         );
         format!("{what} stays closed after that: fact {} {until}", other.id)
     }))

@@ -46,7 +46,7 @@ impl Errand {
         let is_avoiding = answer.status == Status::NoRoute && !self.avoid.is_empty();
         if let Some(reason) = answer.reason.as_mut().filter(|_| is_avoiding && self.ends_in() == [None; 2]) {
             let avoided: Vec<String> = self.avoid.iter().map(|what| format!("`{what}`")).collect();
-            *reason = format!("as this errand keeps away from {}: {reason}", avoided.join(", "));
+            *reason = format!("{reason} (this errand keeps away from {})", avoided.join(", "));
         }
         answer
     }

@@ -8,8 +8,7 @@ use adit_db::edit::Edited;
 use adit_db::history::Author;
 use adit_db::relation::RelationColumn;
 
-use super::cells::{cell_of, columns, explain, is_equal};
-use super::words::gone_with;
+use super::cells::{cell_of, columns, explain, gone_with, is_equal};
 use crate::error::{Code, Error, Result};
 use crate::site::robots::ONLY_ROBOT;
 use crate::site::sheet::Sheet;

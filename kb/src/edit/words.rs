@@ -5,12 +5,13 @@ use adit_db::history::Edit as Entry;
 use jiff::Span;
 use serde_json::{Map, Value};
 
+use super::cells::gone_with;
 use super::file::{self, Write};
 use super::tuning::{ACTIVE, CELLS};
 use super::{Done, Edit};
 use crate::knowledge::told::Whom;
 use crate::site::journal::FILES;
-use crate::words::number::{counted, number};
+use crate::words::number::number;
 
 /// The table of told facts.
 const FACTS: &str = "told";
@@ -141,15 +142,6 @@ fn ends(said: &str, row: &Cell) -> String {
         None => String::new(),
     };
     format!(" {} {said}{understood}", if is_span { "for" } else { "until" })
-}
-
-/// The rows that went with one: `, with 4 rows of changes`.
-pub(super) fn gone_with(row: &Cell) -> String {
-    let rows = object(row).into_iter().flatten().filter_map(|(table, value)| match value {
-        Value::Array(rows) => Some(format!(", with {} of {table}", counted(rows.len(), "row"))),
-        _ => None,
-    });
-    rows.collect()
 }
 
 /// Whether a row says that a tuning is on.

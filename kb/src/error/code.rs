@@ -406,6 +406,8 @@ codes! {
     TableMixed = "table/mixed", BAD_REQUEST;
     /// A table of one's own has the name of a class that a planner gives, or of a table that a newer version or a plan makes; rename it.
     TableTaken = "table/taken", BAD_REQUEST;
+    /// A cell names a row of another table, and there is no such row.
+    TableUnknownRow = "table/unknown-row", UNPROCESSABLE_ENTITY;
 
     /// A change of shape cannot be found again after a build; tell about a room or a state.
     TellChange = "tell/change", BAD_REQUEST;

@@ -141,6 +141,7 @@ impl KnowledgeBase {
         }
         let report = self.build_at(&scratch, &Silent)?;
         problems.extend(lint::misspelt(&report.misspelt));
+        problems.extend(lint::unmet(&report.unmet));
         let said: Vec<String> = problems.iter().map(ToString::to_string).collect();
         problems.extend(changed);
         let notes = report.notes.into_iter().filter(|note| !said.contains(note));
@@ -392,20 +393,24 @@ fn kept(tx: &mut Tx<'_>, robot: &str, start: &str, goals: &[String]) -> Result<O
     Ok(best)
 }
 
-/// A word about rules that were edited since the site was built: what follows from them is done with the next edit.
+/// So many rules are named that differ from those of the last build.
+const NAMED: usize = 3;
+
+/// A word about rules that differ from those with which the site was built: what follows from them is done with the next edit.
 fn not_built(built: &[Built], rules: &RuleBase) -> Option<String> {
     let is_built =
         |rule: &&Rule| built.iter().any(|of| of.name == rule.name() && of.version == rule.version());
-    let edited = rules.rules().iter().filter(|rule| !is_built(rule));
+    let other = rules.rules().iter().filter(|rule| !is_built(rule));
     let mut named: Vec<String> =
-        edited.map(|rule| format!("\"{}\" ({}, line {})", rule.name(), rule.file(), rule.line())).collect();
+        other.map(|rule| format!("\"{}\" ({}, line {})", rule.name(), rule.file(), rule.line())).collect();
     let is_gone = |of: &&Built| !rules.rules().iter().any(|rule| rule.name() == of.name);
     named.extend(built.iter().filter(is_gone).map(|of| format!("\"{}\", which is gone", of.name)));
-    let is_known = !built.is_empty() && !named.is_empty();
-    is_known.then(|| {
-        format!(
-            "rules were edited since the last build, and what follows from them is among this: {}",
-            named.join(", ")
-        )
-    })
+    if built.is_empty() || named.is_empty() {
+        return None;
+    }
+    let more = named.len().saturating_sub(NAMED);
+    named.truncate(NAMED);
+    named.extend((more > 0).then(|| format!("and {more} more")));
+    let named = named.join(", ");
+    Some(format!("rules differ from those of the last build; what follows from them is included: {named}"))
 }

@@ -10,7 +10,7 @@ use adit_db::room::Room;
 use adit_db::schema::Row;
 use adit_db::tree::{Start, TreeRow};
 use adit_db::weight::Weight;
-use adit_engine::{Conclusions, Conflict, Dominated, KnowledgeBase as Inference, Misspelt};
+use adit_engine::{Conclusions, Conflict, Dominated, KnowledgeBase as Inference, Misspelt, Unmet};
 use adit_planners::read::MapReport;
 use adit_planners::routes::{DoorIndex, RoomIndex};
 use serde::Serialize;
@@ -289,7 +289,12 @@ pub struct Report {
     pub dominated: Vec<Dominated>,
     /// Texts that rules ask for and no object has, though one has nearly the same; in the notes, too.
     pub misspelt: Vec<Misspelt>,
+    /// Cells that name a row of another table where there is none; the first of them in the notes, too.
+    pub unmet: Vec<Unmet>,
 }
+
+/// So many cells that name nothing are noted one by one.
+const NOTED: usize = 5;
 
 /// How many rooms and doors take otherwise much of a measure than before.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
@@ -362,6 +367,7 @@ impl Report {
         let conclusions = state.knowledge.conclude(&inputs.rules);
         let dominated = state.knowledge.dominated(&inputs.rules);
         let misspelt = state.knowledge.misspelt(&inputs.rules);
+        let unmet = state.knowledge.unmet(&inputs.rules);
         let graph = state.graph();
         let (mut rooms, mut doors) = (Counts::all(graph.rooms.len()), Counts::all(graph.doors.len()));
         let mut changes = Vec::new();
@@ -391,6 +397,11 @@ impl Report {
         let mut notes: Vec<String> =
             inputs.notes.iter().cloned().chain(state.told.notes.iter().cloned()).chain(idle).collect();
         notes.extend(misspelt.iter().map(ToString::to_string));
+        notes.extend(unmet.iter().take(NOTED).map(ToString::to_string));
+        let more = unmet.len().saturating_sub(NOTED);
+        notes.extend(
+            (more > 0).then(|| format!("and {more} more cells name rows that are not there (`adit check`)")),
+        );
         if graph.rooms.is_empty() && state.site.site().has_rooms() {
             notes.push("there is no room: no state of a robot fits anywhere on this map".to_owned());
         } else if weighed.is_none() || graph.places != before.graph.places {
@@ -419,6 +430,7 @@ impl Report {
             gaps: gaps(&conclusions, graph, &state.site),
             dominated,
             misspelt,
+            unmet,
         }
     }
 

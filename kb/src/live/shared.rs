@@ -243,8 +243,9 @@ impl Live {
             shared.others = Some(Instant::now());
         }
         if is_lost || !entry.files().is_empty() {
-            take_rows(&mut self.store, &self.site, entry)?;
+            // rows may be taken though a file cannot be written
             self.lose();
+            take_rows(&mut self.store, &self.site, entry)?;
             if let Some(shared) = &mut self.shared {
                 shared.files |= !entry.files().is_empty();
             }

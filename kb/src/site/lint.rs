@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use adit_engine::{Dominated, Instead, Misspelt, Replaced, Rule, RuleBase, Standing};
+use adit_engine::{Dominated, Instead, Misspelt, Replaced, Rule, RuleBase, Standing, Unmet};
 use adit_planners::overlays::{AREAS, only_of_site, own};
 use adit_planners::planner::Planner;
 use adit_planners::world::{Area, World};
@@ -335,4 +335,9 @@ pub fn never_chosen(dominated: &[Dominated]) -> Vec<Finding> {
 /// Texts that rules ask for and that were probably meant to be others.
 pub fn misspelt(misspelt: &[Misspelt]) -> impl Iterator<Item = Finding> {
     misspelt.iter().map(|one| Finding::warning(Code::RuleUnknownText, one.to_string(), None))
+}
+
+/// Cells that name a row of another table, where there is none.
+pub fn unmet(unmet: &[Unmet]) -> impl Iterator<Item = Finding> {
+    unmet.iter().map(|one| Finding::warning(Code::TableUnknownRow, one.to_string(), None))
 }

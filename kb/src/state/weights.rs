@@ -2,7 +2,7 @@
 
 use adit_db::door::Door;
 use adit_db::room::Room;
-use adit_engine::{Changes, KnowledgeBase as Inference, Operator, Revision, RuleBase, Value};
+use adit_engine::{Changes, KnowledgeBase as Inference, Origin, Revision, RuleBase, Value};
 use adit_planners::facts::Column;
 
 use crate::error::{Code, Error, Result};
@@ -89,20 +89,16 @@ fn refusal(
     let found = value.map_or_else(String::new, number);
     let key = knowledge.key(class, row);
     let why = key.and_then(|key| knowledge.why(rules, class, &key, property));
-    if let Some(Revision { operator, amount: Some(amount), support, .. }) =
-        why.as_ref().and_then(|why| why.revisions.iter().rev().find(|revision| is_bad(revision)))
-    {
-        // what comes first is what is revised, what comes last why
-        let about = support.witnesses.iter().skip(1).next_back();
-        let about = about.map_or_else(String::new, |of| format!(" for {} {}", of.class, of.key));
+    if let Some(why) = why.filter(|why| !why.revisions.is_empty()) {
+        let giver = match &why.origin {
+            Origin::Told => "a fact or a table".to_owned(),
+            Origin::Rule(support) => format!("rule \"{}\"", support.rule),
+        };
+        let revised: Vec<String> = why.revisions.iter().map(revision).collect();
         let message = format!(
-            "rule \"{}\" ({}, line {}) makes the {property} of {} {found}, by `{} {}`{about}",
-            support.rule,
-            support.file,
-            support.line,
+            "{} has the {property} {found}, by {giver}, then by {}",
             name(row),
-            operator.sign(),
-            number(*amount)
+            revised.join(", then by ")
         );
         let help = format!("{property} must be finite and not negative");
         return Error::said(Code::RuleHardness, message, Some(help));
@@ -113,18 +109,18 @@ fn refusal(
     });
     let by = by.unwrap_or_else(|| givers(knowledge, (class, property)));
     let message = format!("{by} gives {} the {property} {found}", name(row));
-    let help = format!("{property} must be finite and not negative; revisions count, too");
+    let help = format!("{property} must be finite and not negative");
     Error::said(Code::RuleHardness, message, Some(help))
 }
 
-/// Whether what a revision takes can make a number that does not count of one that does.
-fn is_bad(Revision { operator, amount, .. }: &Revision) -> bool {
-    amount.is_some_and(|amount| match operator {
-        Operator::Times | Operator::Plus | Operator::Max | Operator::Min => {
-            !(0.0..=LARGEST).contains(&amount)
-        }
-        Operator::Minus => !(-LARGEST..=0.0).contains(&amount),
-    })
+/// A revision: what it does, the rule, and what made that rule speak.
+fn revision(Revision { operator, amount, support, .. }: &Revision) -> String {
+    // what comes first is what is revised, what comes last why
+    let about = support.witnesses.iter().skip(1).next_back();
+    let about = about.map_or_else(String::new, |of| format!(" for {} {}", of.class, of.key));
+    let amount = amount.map_or_else(|| "unknown".to_owned(), number);
+    let (operator, rule) = (operator.sign(), &support.rule);
+    format!("`{operator} {amount}` of rule \"{rule}\" ({}, line {}){about}", support.file, support.line)
 }
 
 /// The rules that give a class a property.

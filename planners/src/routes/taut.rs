@@ -14,11 +14,11 @@ use std::cmp::Ordering;
 use std::collections::{BTreeMap, BinaryHeap, HashMap, HashSet};
 use std::rc::Rc;
 
-use bounds::{hardly_less, hardly_more};
 use fixedbitset::FixedBitSet;
 use smallvec::SmallVec;
 
 use super::cone::{Gap, Segment, View};
+use super::cost::{hardly_less, hardly_more};
 use super::graph::RouteGraph;
 use super::mesh::{EPSILON, Exit, NONE};
 use super::parts::{DoorIndex, Entry, Goal, RoomIndex, Start};

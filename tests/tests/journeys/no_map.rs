@@ -138,3 +138,21 @@ fn it_is_served() {
     let (status, route) = service.ask("GET", "/api/route?start=a&goal=b", None);
     assert!(status >= 400 && route["error"]["message"].is_string(), "{route}");
 }
+
+#[test]
+fn a_cell_that_names_a_row_of_another_table_that_is_not_there_is_noted() {
+    let site = shop();
+    site.edit("tables/orders.csv", "Bruno", "Brunno");
+    let said = "ORDERS 2 has customer \"Brunno\", and CUSTOMERS has no such row: did you mean \"Bruno\"?";
+    for verb in ["build", "check"] {
+        let ran = site.adit(verb, &[]);
+        let words = format!("{}{}", ran.stdout, ran.stderr).replace("\n  │ ", " ");
+        assert!(words.contains(said), "{words}");
+    }
+    let add = ["orders", "9", "--add", "customer=Ada", "product=teaa", "pieces=2"];
+    let added = site.adit("tune", &add).expecting(0).stderr;
+    assert!(added.contains("ORDERS 9 has product \"teaa\", and PRODUCTS has no such row"), "{added}");
+    site.adit("tune", &["orders", "2", "customer", "Bruno"]).expect_status(0);
+    let mended = site.adit("tune", &["orders", "9", "product", "tea"]).expecting(0).stderr;
+    assert_eq!(mended, "");
+}

@@ -314,7 +314,7 @@ fn an_edit_says_which_rules_were_edited_since_the_build_and_count_with_it() {
     site.write("rules/draughty.rhai", rule);
     let edited = tune("6");
     assert!(
-        edited.contains("rules were edited since the last build") && edited.contains("\"draughty\" ("),
+        edited.contains("rules differ from those of the last build") && edited.contains("\"draughty\" ("),
         "{edited}"
     );
     assert_eq!(tune("7"), "");

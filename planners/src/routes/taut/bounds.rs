@@ -2,26 +2,10 @@
 //! ways are found.
 
 use super::super::cone::Segment;
+use super::super::cost::hardly_more;
 use super::super::parts::{Goal, RoomIndex};
-use super::{EPSILON, Node, SLACK, Search, Wanted};
+use super::{Node, SLACK, Search, Wanted};
 use crate::geometry::Rect;
-
-/// Costs that differ by no more than this share of them are the same but for rounding.
-const SAME: f64 = 1e-13;
-
-/// What is more than a cost but for rounding, however large it is.
-pub(super) fn hardly_more(cost: f64) -> f64 {
-    cost + rounding(cost)
-}
-
-/// What is less than a cost but for rounding, however large it is.
-pub(super) fn hardly_less(cost: f64) -> f64 {
-    cost - rounding(cost)
-}
-
-fn rounding(cost: f64) -> f64 {
-    if cost.is_finite() { EPSILON.max(SAME * cost.abs()) } else { 0.0 }
-}
 
 impl Search<'_> {
     /// What a way may cost before it is pulled tight and still come to cost no more than another one of this cost.

@@ -3,10 +3,10 @@
 use std::rc::Rc;
 
 use super::super::cone::Segment;
+use super::super::cost::{hardly_less, hardly_more};
 use super::super::mesh::Exit;
 use super::super::parts::{Goal, RoomIndex};
 use super::super::turning::Gate;
-use super::bounds::{hardly_less, hardly_more};
 use super::{CLOSE_M, Found, NEAR_M, NO_NODE, Node, Search, View, Wanted, is_cheaper_from};
 use crate::geometry::Point;
 use crate::geometry::tolerance::SNAP_M;
