@@ -5,6 +5,7 @@ use std::io::{BufRead, BufReader, Write};
 use std::net::{TcpListener, TcpStream};
 use std::path::PathBuf;
 use std::process::{Child, Command, Stdio};
+use std::sync::OnceLock;
 use std::sync::mpsc::{Receiver, channel};
 use std::time::{Duration, Instant};
 
@@ -207,17 +208,21 @@ impl Vehicle {
 }
 
 /// Where npm put the vehicle's library (`tests/run` does so too).
-fn library() -> PathBuf {
-    let exe = std::env::current_exe().unwrap();
-    let folder = exe.ancestors().nth(3).unwrap().join("vda-5050");
-    if !folder.join("node_modules/vda-5050-lib/package.json").exists() {
-        let mut npm = Command::new("npm");
-        npm.args(["install", "--silent", "--no-audit", "--no-fund", "--prefix"])
-            .arg(&folder)
-            .arg("vda-5050-lib@1.4");
-        assert!(npm.status().expect("npm is installed").success());
-    }
-    folder
+fn library() -> &'static PathBuf {
+    // tests that begin at once do not install it into one folder at once
+    static LIBRARY: OnceLock<PathBuf> = OnceLock::new();
+    LIBRARY.get_or_init(|| {
+        let exe = std::env::current_exe().unwrap();
+        let folder = exe.ancestors().nth(3).unwrap().join("vda-5050");
+        if !folder.join("node_modules/vda-5050-lib/package.json").exists() {
+            let mut npm = Command::new("npm");
+            npm.args(["install", "--silent", "--no-audit", "--no-fund", "--prefix"])
+                .arg(&folder)
+                .arg("vda-5050-lib@1.4");
+            assert!(npm.status().expect("npm is installed").success());
+        }
+        folder
+    })
 }
 
 /// A cell of the table of vehicles.
