@@ -62,8 +62,10 @@ fn decode<'r, T: Decode<'r, Sqlite>>(value: SqliteValueRef<'r>) -> Result<T> {
     T::decode(value).map_err(|e| sqlx::Error::Decode(e).into())
 }
 
-/// Numbers from this one on are written with an exponent.
-const LONG: f64 = 1e15;
+impl Cell {
+    /// Numbers from this one on are written with an exponent.
+    pub const LONG: f64 = 1e15;
+}
 
 impl std::fmt::Display for Cell {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
@@ -71,7 +73,7 @@ impl std::fmt::Display for Cell {
             Self::Null => write!(f, "NULL"),
             Self::Integer(value) => write!(f, "{value}"),
             // digits that nobody counts
-            Self::Real(value) if value.abs() >= LONG => write!(f, "{value:e}"),
+            Self::Real(value) if value.abs() >= Self::LONG => write!(f, "{value:e}"),
             Self::Real(value) => write!(f, "{value}"),
             Self::Text(value) => write!(f, "{value}"),
             Self::Blob(value) => write!(f, "{} bytes", value.len()),

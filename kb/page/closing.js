@@ -8,7 +8,7 @@ import { model } from './model.js';
 import { said } from './notice.js';
 import { put } from './pending.js';
 import { refresh } from './refresh.js';
-import { andRules, focusSaved, showSaved } from './saved.js';
+import { andThen, focusSaved, showSaved } from './saved.js';
 import { holds, middleOf } from './shapes.js';
 import { nounOf, showsPieces, sidesOf } from './thing.js';
 import { lookAhead } from './would.js';
@@ -94,7 +94,7 @@ export function close(edit, label, sides = []) {
       const answer = await post('/api/edits', { edit: wish(), why: reason.value.trim() || undefined });
       const isHere = stays();
       made.remove();
-      showSaved(`${title}: done.${andRules([answer])}`, [answer.done.id]);
+      showSaved(`${title}: done.${andThen([answer])}`, [answer.done.id]);
       if (isHere) focusSaved();
       await refresh(answer.generation);
     } catch (error) {

@@ -11,7 +11,7 @@ import { said } from './notice.js';
 import { discard, put } from './pending.js';
 import { refresh } from './refresh.js';
 import { isOpen, onTab } from './router.js';
-import { andRules, showSaved } from './saved.js';
+import { andThen, showSaved } from './saved.js';
 import { lookAhead } from './would.js';
 
 const USUAL = {
@@ -85,7 +85,7 @@ async function tell() {
     byId('fact-object').value = '';
     would.forget();
     fill(byId('fact-said'), el('p', { class: 'right', role: 'status', text: 'Told. Routes follow at once.' }));
-    showSaved(`Told: ${words({ ...told, key: told.object })}.${andRules([answer])}`, [answer.done.id]);
+    showSaved(`Told: ${words({ ...told, key: told.object })}.${andThen([answer])}`, [answer.done.id]);
     await refresh(answer.generation);
     await load();
   } catch (error) {

@@ -12,7 +12,7 @@ import { said } from './notice.js';
 import { cells, discard, edits, keyName, restore } from './pending.js';
 import { refresh } from './refresh.js';
 import { address, isOpen } from './router.js';
-import { andRules, focusSaved, forgetSaved, showSaved } from './saved.js';
+import { andThen, focusSaved, forgetSaved, showSaved } from './saved.js';
 import { isOn } from './tunings.js';
 
 const WAIT = 120;
@@ -308,7 +308,7 @@ async function saveAll(isKnown) {
     for (const { file } of saved) rebase(file);
     if (!model.pending.size) model.preview = null;
     card.why.value = '';
-    showSaved(`Saved: ${list([...sent.values()].map(inOneWord))}.${andRules([answer])}`, [answer.done.id]);
+    showSaved(`Saved: ${list([...sent.values()].map(inOneWord))}.${andThen([answer])}`, [answer.done.id]);
     if (hadFocus && stays()) focusSaved();
     // A tuning that is off changes nothing but itself.
     await refresh(answer.generation === model.weights?.generation ? undefined : answer.generation);

@@ -23,10 +23,11 @@ export function showSaved(text, edits, other) {
 /** Takes the word away. */
 export const forgetSaved = () => fill(byId('saved'));
 
-/** What rules that react did of it, after the word about it. */
-export const andRules = (answers) => {
+/** What rules that react did of it, and what it leaves as one may not expect it, after the word about it. */
+export const andThen = (answers) => {
   const done = answers.flatMap(({ reacted }) => reacted ?? []);
-  return done.length ? ` Then ${done.join('; ')}.` : '';
+  const remarks = answers.flatMap((answer) => answer.remarks ?? []);
+  return (done.length ? ` Then ${done.join('; ')}.` : '') + remarks.map((remark) => ` But ${remark}.`).join('');
 };
 
 /** Gives the focus to the word itself, not to its undo: who holds the key, or presses it once more, must not undo. */

@@ -216,10 +216,20 @@ impl Edit {
 }
 
 impl Edit {
-    /// A word about what an edit leaves as people may not expect it: a cell that does not count, a state whose changes no row
-    /// prices, what is closed for longer,
-    /// or passed all the same, and what is shut all the same.
-    pub(crate) fn remark(&self, tx: &mut Tx<'_>, done: &Done) -> Result<Option<String>> {
+    /// Words about what an edit leaves as people may not expect it, once all that follows is written: a cell that does not count, a
+    /// state whose changes no row prices, what is closed for longer, or passed all the same, and what is shut all the same.
+    pub(crate) fn remarks(&self, tx: &mut Tx<'_>, done: &Done) -> Result<Vec<String>> {
+        if let Self::Together(edits) = self {
+            let mut all = Vec::new();
+            for (edit, done) in edits.iter().zip(&done.parts) {
+                all.extend(edit.remarks(tx, done)?);
+            }
+            return Ok(all);
+        }
+        Ok(self.remark(tx, done)?.into_iter().collect())
+    }
+
+    fn remark(&self, tx: &mut Tx<'_>, done: &Done) -> Result<Option<String>> {
         match self {
             Self::Add(table, ..) if table == "robots" => unpriced(tx, Some(&done.key)),
             Self::Table(table, _) if table == "robots" => unpriced(tx, None),

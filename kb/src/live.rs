@@ -72,6 +72,8 @@ pub struct Outcome {
     pub stages: Vec<Stage>,
     /// What rules that react told, in sentences.
     pub reacted: Vec<String>,
+    /// What the edit leaves as people may not expect it, in sentences.
+    pub remarks: Vec<String>,
     pub meanwhile: Meanwhile,
 }
 
@@ -219,11 +221,12 @@ impl Live {
             make_tables(tx, &inputs.rules)?;
             let done = edit.apply(tx, &drafted, &inputs.rules, author)?;
             let (memory, report) = Memory::build(tx, &drafted, &inputs, &Silent)?;
+            let remarks = edit.remarks(tx, &done)?;
             let journal = Journal::begin(tx, drafted.database(), &drafted.rule_folder(), since)?;
-            Ok((done, memory, report, journal))
+            Ok((done, memory, (report, remarks), journal))
         });
         self.store.cede();
-        let (done, mut memory, report, journal) = written?;
+        let (done, mut memory, (report, remarks), journal) = written?;
         Journal::finish(journal);
         self.wrote();
         self.site = Arc::new(drafted.with_drafts_saved());
@@ -231,7 +234,7 @@ impl Live {
         self.memory = memory;
         self.newest = self.store.snapshot(|tx| tx.history(1))?.first().map_or(self.newest, |entry| entry.id);
         self.ready();
-        Ok(Outcome { done: Some(done), ..anew(report) })
+        Ok(Outcome { done: Some(done), remarks, ..anew(report) })
     }
 
     /// Derives all anew, since others edited the tables; with what they did.
@@ -259,14 +262,16 @@ impl Live {
             }
             let rules = &memory.state.inputs.rules;
             let done = edit.map(|(edit, author)| edit.apply(tx, site, rules, author)).transpose()?;
-            memory.follow(tx, done, Promptness::Later, &Silent).map(Some)
+            let followed = memory.follow(tx, done.clone(), Promptness::Later, &Silent)?;
+            let remarks = edit.zip(done).map(|((edit, _), done)| edit.remarks(tx, &done)).transpose()?;
+            Ok(Some((followed, remarks.unwrap_or_default())))
         });
         match followed {
             Ok(None) => Ok(None),
-            Ok(Some(followed)) => {
+            Ok(Some((followed, remarks))) => {
                 let outcome = self.accept(followed)?;
                 self.wrote();
-                Ok(Some(outcome))
+                Ok(Some(Outcome { remarks, ..outcome }))
             }
             Err(error) => {
                 memory.take_back()?;
@@ -374,6 +379,7 @@ impl Live {
             anew,
             stages,
             reacted,
+            remarks: Vec::new(),
             meanwhile: Meanwhile::Ended(Vec::new()),
         }
     }
@@ -391,6 +397,7 @@ fn anew(report: Report) -> Outcome {
         anew: true,
         stages: report.stages,
         reacted: report.reacted,
+        remarks: Vec::new(),
         meanwhile: Meanwhile::Ended(Vec::new()),
     }
 }

@@ -15,6 +15,13 @@ pub(crate) fn failure(rule: &Rule, start: Position, error: &EvalAltResult) -> (D
     let reason = match cause {
         EvalAltResult::ErrorTerminated(reason, _) => reason.to_string(),
         EvalAltResult::ErrorTooManyOperations(_) => "more steps than a rule may take".to_owned(),
+        EvalAltResult::ErrorFunctionNotFound(signature, _) => not_there(signature),
+        EvalAltResult::ErrorMismatchDataType(expected, found, _)
+        | EvalAltResult::ErrorMismatchOutputType(expected, found, _)
+            if !expected.is_empty() && !found.is_empty() =>
+        {
+            format!("this is {}, expected {}", kind(found), kind(expected))
+        }
         _ => error.to_string(),
     };
     (
@@ -25,4 +32,31 @@ pub(crate) fn failure(rule: &Rule, start: Position, error: &EvalAltResult) -> (D
         ),
         limit,
     )
+}
+
+/// That there is no such function of such values, as in `<< (f64, f64)`.
+fn not_there(signature: &str) -> String {
+    let (name, types) = signature.split_once(" (").unwrap_or((signature, ")"));
+    let kinds: Vec<&str> =
+        types.trim_end_matches(')').split(", ").filter(|of| !of.is_empty()).map(kind).collect();
+    match kinds.split_last() {
+        None => format!("there is no function `{name}` of nothing"),
+        Some((only, [])) => format!("there is no `{name}` of {only}"),
+        Some((last, others)) => format!("there is no `{name}` of {} and {last}", others.join(", ")),
+    }
+}
+
+/// The kind of value that rhai's name of a type stands for.
+fn kind(of: &str) -> &str {
+    match of.trim_start_matches('&').trim_start_matches("mut ") {
+        "i64" | "f64" | "int" | "float" => "a number",
+        "bool" => "a truth value",
+        "string" | "str" | "char" => "a text",
+        "array" => "a list",
+        "map" => "a map",
+        "()" => "nothing",
+        "Fn" => "a function",
+        _ if of.contains("String") => "a text",
+        _ => of,
+    }
 }

@@ -71,7 +71,7 @@ fn compile(source: &SourceFile, reader: &Engine, problems: &mut Vec<Diagnostic>)
     match reader.compile(source.text()) {
         Ok(ast) => Some(ast),
         Err(error) => {
-            let message = syntax_message(error.err_type(), word_before(source.text(), error.position()));
+            let message = syntax_message(error.err_type(), line_about(source.text(), error.position()));
             problems.push(Diagnostic::error(Code::Syntax, &source.place(error.position()), message));
             None
         }
@@ -133,19 +133,38 @@ fn items(source: &SourceFile, ast: &AST, read: &mut Read) {
     }
 }
 
-/// The first word of the line where an error is found further on in it.
-fn word_before(text: &str, position: rhai::Position) -> &str {
+/// What stands before and after the place of an error in its line.
+fn line_about(text: &str, position: rhai::Position) -> (&str, &str) {
     let line = position.line().and_then(|line| text.lines().nth(line.checked_sub(1)?)).unwrap_or_default();
-    line.split_whitespace().next().unwrap_or_default()
+    let column = position.position().unwrap_or(1) - 1;
+    line.split_at(line.char_indices().nth(column).map_or(line.len(), |(at, _)| at))
 }
 
-fn syntax_message(error: &ParseErrorType, before: &str) -> String {
+/// What a slip of the pen is that makes what comes after it look wrong.
+fn slip((before, after): (&str, &str)) -> Option<String> {
+    let is_digit = |sign: Option<char>| sign.is_some_and(|sign| sign.is_ascii_digit());
+    if after.starts_with(',') && is_digit(before.chars().last()) && is_digit(after.chars().nth(1)) {
+        return Some("a number is written with a point, not with a comma".to_owned());
+    }
+    let condition = before.trim_end().strip_suffix("then")?.trim_end();
+    let sign = ["&&", "||", "==", "!=", "<", ">", "=", "+", "-", "*", "/"];
+    let sign = sign.into_iter().find(|sign| condition.ends_with(sign))?;
+    Some(format!("the condition before `then` ends in `{sign}`: something belongs behind it, or it goes"))
+}
+
+fn syntax_message(error: &ParseErrorType, about: (&str, &str)) -> String {
+    let before = about.0.split_whitespace().next().unwrap_or_default();
     match error {
         ParseErrorType::Reserved(word) => {
             format!("`{word}` is a reserved word of the script language; use another name")
         }
         ParseErrorType::BadInput(error) => match error {
-            rhai::LexError::ImproperSymbol(_, message) if !message.is_empty() => message.clone(),
+            rhai::LexError::ImproperSymbol(_, message) if !message.is_empty() => {
+                slip(about).unwrap_or_else(|| message.clone())
+            }
+            rhai::LexError::UnexpectedInput(text) if text.chars().all(is_curly_quote) => {
+                format!("`{text}` cannot stand here: a text stands between straight double quotes, `\"`")
+            }
             rhai::LexError::UnexpectedInput(text) => format!("`{text}` cannot stand here"),
             other => other.to_string(),
         },
@@ -158,12 +177,25 @@ fn syntax_message(error: &ParseErrorType, before: &str) -> String {
             }
             _ => "a `;` belongs before this, to part it from the statement before".to_owned(),
         },
-        ParseErrorType::MissingToken(token, _) if token == "}" => {
-            "a `}` is missing: what a `{` has opened is not closed".to_owned()
+        ParseErrorType::MissingToken(token, _) if token == "," => {
+            "a `,` belongs before this, to part it from what stands before".to_owned()
+        }
+        ParseErrorType::MissingToken(token, _) if matches!(token.as_str(), "}" | "]" | ")") => {
+            let opened = match token.as_str() {
+                "}" => "{",
+                "]" => "[",
+                _ => "(",
+            };
+            format!("a `{token}` is missing: what a `{opened}` has opened is not closed")
         }
         ParseErrorType::UnexpectedEOF => "the file ends in the middle of a rule".to_owned(),
         other => other.to_string(),
     }
+}
+
+/// Whether a sign is one of the quotes that text programs put in for straight ones.
+fn is_curly_quote(sign: char) -> bool {
+    matches!(sign, '“' | '”' | '„' | '‘' | '’' | '«' | '»')
 }
 
 fn scope(source: &SourceFile, ast: &AST, problems: &mut Vec<Diagnostic>) -> FileScope {

@@ -178,7 +178,7 @@ pub(super) fn shut_all_the_same(tx: &mut Tx<'_>, what: &str) -> Result<Option<St
         }
         _ => room_shut_in(tx, &object)?,
     };
-    Ok(witness.map(|witness| format!("{what} stays shut all the same: `adit why SITE {witness:?}` says why")))
+    Ok(witness.map(|witness| format!("{what} stays shut all the same: ask why about {witness:?}")))
 }
 
 /// A room of an area, where none of them is entered.

@@ -251,7 +251,7 @@ pub(super) fn end(site: &KnowledgeBase, until: &str) -> Result<String> {
     let clock = site.clock();
     let end = clock.parse(until)?;
     if end <= clock.now() {
-        let message = format!("--until {until} is {}, and that is over", stored(end));
+        let message = format!("the end `{until}` is {}, and that is over", stored(end));
         let help = "say when it will end, or leave it out".to_owned();
         return Err(Error::said(Code::TellPast, message, Some(help)));
     }

@@ -324,6 +324,7 @@ impl Live {
             anew: true,
             stages: Vec::new(),
             reacted: Vec::new(),
+            remarks: Vec::new(),
             meanwhile: Meanwhile::Edited(Vec::new()),
         })
     }

@@ -192,8 +192,13 @@ fn of_text(path: &Path, bytes: Vec<u8>) -> Result<Read> {
 fn of_workbook(path: &Path, bytes: Vec<u8>) -> Result<Read> {
     let file = path.display();
     let wrong = |message: String| Error::said(Code::TableFile, message, None);
-    let mut book: Xlsx<_> =
-        Xlsx::new(Cursor::new(bytes)).map_err(|error| wrong(format!("{file} is no workbook: {error}")))?;
+    let mut book: Xlsx<_> = Xlsx::new(Cursor::new(bytes)).map_err(|error| match error {
+        XlsxError::Zip(_) => {
+            let help = "save it as .xlsx in a spreadsheet program, or give a file of CSV the ending .csv";
+            Error::said(Code::TableFile, format!("{file} is no workbook"), Some(help.to_owned()))
+        }
+        error => wrong(format!("{file} is no workbook: {error}")),
+    })?;
     let name = book.sheet_names().first().cloned().ok_or_else(|| wrong(format!("{file} has no sheet")))?;
     let unread = |error: XlsxError| wrong(format!("{file}: its first sheet cannot be read: {error}"));
     // cell by cell: one that stands far off takes no more room than any other

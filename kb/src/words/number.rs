@@ -1,11 +1,10 @@
 //! Numbers as people read them.
 
-/// Beyond this a number is written with an exponent.
-const LONG: f64 = 1e15;
+use adit_db::Cell;
 
 /// At most three decimals, none that say nothing; an exponent where there would be more than 15 digits.
 pub fn number(value: f64) -> String {
-    if value.is_finite() && value.abs() >= LONG {
+    if value.is_finite() && value.abs() >= Cell::LONG {
         return format!("{value:e}");
     }
     let text = format!("{value:.3}");

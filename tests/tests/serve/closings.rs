@@ -69,3 +69,30 @@ fn what_is_laid_over_the_map_is_in_the_next_route_and_on_the_map_until_it_is_lif
     assert_eq!((cost(), areas()), (free, known));
     assert_eq!(service.ask("DELETE", "/api/areas/wet%20floor", None).0, 404);
 }
+
+#[test]
+fn what_stands_against_an_edit_is_said() {
+    let files = "map = \"map.toml\"\nrobots = \"robots.toml\"\n";
+    let site = TestSite::example("starter").with("site.toml", files).built();
+    let service = Service::start(&site);
+    let said = |edit: &Value| {
+        let (status, edited) = service.ask("POST", "/api/edits", Some(&json!({ "edit": edit })));
+        assert_eq!(status, 200, "{edited}");
+        edited["remarks"].clone()
+    };
+    let close = |seconds: u32| json!({"kind": "close", "what": "doorway 1", "for_seconds": seconds});
+    assert_eq!(said(&close(7200)), json!([]));
+    let shorter = said(&close(3600));
+    assert!(
+        shorter[0].as_str().unwrap().starts_with("doorway 1 stays closed after that: fact 1"),
+        "{shorter}"
+    );
+    // of edits that are made together, too
+    let both = json!({"kind": "together", "edits": [close(60), close(30)]});
+    assert_eq!(said(&both).as_array().map(Vec::len), Some(2));
+    let keep_out = json!({"kind": "lay", "what": "area", "name": "stairs", "corners": [[5, 2], [7, 6]],
+        "properties": {"kind": "keep-out"}});
+    assert_eq!(said(&keep_out), json!([]));
+    let shut = said(&json!({"kind": "open", "what": "stairs"}));
+    assert!(shut[0].as_str().unwrap().starts_with("stairs stays shut all the same"), "{shut}");
+}

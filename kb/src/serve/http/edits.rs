@@ -313,6 +313,8 @@ pub struct Edited {
     pub anew: bool,
     /// What rules that react told, in sentences.
     pub reacted: Vec<String>,
+    /// What it leaves as one may not expect it, in sentences: what is closed for longer, or passed all the same.
+    pub remarks: Vec<String>,
     /// What the tests of the rules gave, where rule files are others.
     pub tests: Option<TestsOf>,
     /// Milliseconds that it took, waiting included.
@@ -334,6 +336,7 @@ pub async fn make(site: &Site, caller: &Caller, edit: Edit, why: String) -> Answ
             doors: outcome.doors,
             anew: outcome.anew,
             reacted: outcome.reacted,
+            remarks: outcome.remarks,
             done: outcome.done,
             tests,
             took_ms: 0.0,

@@ -481,7 +481,7 @@ fn what_stands_against_a_closing_or_an_opening_is_said() {
     site.adit("open", &["window"]).expect_status(0);
     site.adit("lay", &["area", "stairs", "5,2 7,6", "--kind", "keep-out"]).expect_status(0);
     let said = site.adit("open", &["stairs"]).expecting(0).stderr;
-    assert!(said.contains("stairs stays shut all the same: `adit why SITE \"room "), "{said}");
+    assert!(said.contains("stairs stays shut all the same: ask why about \"room "), "{said}");
 }
 
 #[test]
