@@ -6,6 +6,7 @@ import { exact, number, value as inWords } from './format.js';
 import { model } from './model.js';
 import { cellId, discard, editCell, keyName, put } from './pending.js';
 import { isGoing, newRow, newRows, rowForms } from './rows.js';
+import { fileForms } from './table-file.js';
 import { inTuning } from './tunings.js';
 
 const MOST_ROWS = 200;
@@ -56,7 +57,7 @@ function build(table, open) {
   const grid = el('div', { class: 'scroll' }, el('table', { class: 'tuned' }, el('caption', { class: 'unseen', text: title }), el('thead', {}, head), el('tbody', {}, ...rows), coming));
   const more = wanted.length > MOST_ROWS ? el('p', { class: 'hint', text: `The first ${MOST_ROWS} of ${wanted.length} rows; SQL shows all.` }) : null;
   const empty = wanted.length ? null : el('p', { class: 'hint', text: 'Nothing is said here.' });
-  const node = el('details', { open, 'data-table': table.table }, el('summary', { text: title }), grid, more, empty, model.may('tune') ? rowForms(table, columns) : null);
+  const node = el('details', { open, 'data-table': table.table }, el('summary', { text: title }), grid, more, empty, model.may('tune') ? rowForms(table, columns) : null, fileForms(table));
   return { node, cells, results, structure: structure(table), table, columns, rows, coming, shown: new Map() };
 }
 

@@ -10,7 +10,7 @@ use super::build::open;
 use super::output::{json, line};
 use super::tune::apply;
 use crate::edit::Edit;
-use crate::error::{Code, Error, Result};
+use crate::error::Result;
 use crate::site::sheet::{self, Sheet};
 use crate::site::whole;
 use crate::words::number::counted;
@@ -36,10 +36,7 @@ pub struct TableArgs {
 }
 
 pub fn run(args: &TableArgs) -> Result<()> {
-    if let Some(file) = args.to.iter().chain(&args.from).find(|file| !sheet::is_sheet(file)) {
-        let message = format!("{} is neither .csv nor .xlsx", file.display());
-        return Err(Error::said(Code::TableFile, message, None));
-    }
+    args.to.iter().try_for_each(|file| sheet::check(file))?;
     let knowledge = open(&args.site)?;
     if let Some(file) = &args.from {
         let edit = Edit::Table(args.table.clone(), Sheet::read(file)?);

@@ -63,6 +63,7 @@ fn described() -> (Router<Arc<Shared>>, OpenApi) {
         .routes(routes!(follow::follow))
         .routes(routes!(follow::moved))
         .routes(routes!(tables::tables))
+        .routes(routes!(tables::file))
         .routes(routes!(tables::tunings))
         .routes(routes!(edits::edit))
         .routes(routes!(edits::blocked))

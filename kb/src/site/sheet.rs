@@ -57,10 +57,25 @@ pub fn is_name(name: &str) -> bool {
 /// What names of tables and columns are made of.
 const NAMES: &str = "rules name tables and columns, so these are letters a to z, digits and _";
 
+/// Refuses a file that no table is read from or written to.
+pub fn check(path: &Path) -> Result<()> {
+    if is_sheet(path) {
+        return Ok(());
+    }
+    Err(Error::said(Code::TableFile, format!("{} is neither .csv nor .xlsx", path.display()), None))
+}
+
 impl Sheet {
     /// Reads a file.
     pub fn read(path: &Path) -> Result<Self> {
+        check(path)?;
         let bytes = std::fs::read(path).map_err(|error| Error::io("read", path, &error))?;
+        Self::of(path, bytes)
+    }
+
+    /// What a file of this name holds.
+    pub fn of(path: &Path, bytes: Vec<u8>) -> Result<Self> {
+        check(path)?;
         let (lines, rows) = if is_workbook(path) { of_workbook(path, bytes)? } else { of_text(path, bytes)? };
         let mut rows = rows.into_iter();
         let Some(head) = rows.next() else {

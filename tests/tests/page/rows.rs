@@ -99,3 +99,43 @@ async fn cells_rows_and_drawings_are_saved_in_one_go_and_taken_back_in_one_click
     browser.says("#saved", "Taken back").await;
     assert_eq!(content(), before);
 }
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_table_goes_to_a_file_and_the_rows_of_a_file_are_previewed_before_they_are_taken() {
+    let (site, _service, browser) = crate::at_a_desk("paper", "#map?start=f&goal=e").await;
+    browser
+        .run(
+            "const make = URL.createObjectURL;
+             URL.createObjectURL = (blob) => { blob.text().then((text) => { window.went = text; }); return make(blob); };
+             document.querySelectorAll(\"[data-table='robots'] details\").forEach((of) => { of.open = true; })",
+        )
+        .await;
+    browser.press("[data-table=robots]", "Download CSV").await;
+    browser.until("window.went?.includes('hardness')", "the file").await;
+    let before = site.adit("table", &["robots"]).expecting(0).stdout;
+    assert_eq!(browser.value("window.went").await.as_str().unwrap().trim_end(), before.trim_end());
+    let give = |name: &str, text: &str| {
+        format!(
+            "const input = document.querySelector(\"[data-table='robots'] input[type=file]\");
+             const transfer = new DataTransfer();
+             transfer.items.add(new File([{text:?}], {name:?}));
+             input.files = transfer.files;
+             input.dispatchEvent(new Event('change'))"
+        )
+    };
+    browser.run(&give("states.csv", &before.replace("hardness", "hardnes"))).await;
+    browser.says("#preview", "did you mean `hardness`?").await;
+    let robots = site.sqlite3("SELECT state || ',' || action || ',' FROM robots ORDER BY position");
+    let row = before.lines().find(|line| line.contains(&robots[0])).unwrap();
+    browser.run(&give("states.csv", &before.replace(&format!("{row}\n"), ""))).await;
+    browser.says("#preview", "Robot states as in states.csv").await;
+    browser.screenshot("rows-of-a-file").await;
+    until_it_may_be_saved(&browser).await;
+    browser.click("#save").await;
+    browser.says("#saved", "Saved: Robot states as in states.csv").await;
+    assert_eq!(site.sqlite3("SELECT count(*) FROM robots"), [(robots.len() - 1).to_string()]);
+    browser.click("#undo").await;
+    browser.press("dialog", "Take it back").await;
+    browser.says("#saved", "Taken back").await;
+    assert_eq!(site.adit("table", &["robots"]).expecting(0).stdout, before);
+}

@@ -2,7 +2,7 @@
 
 use adit_tests::TestSite;
 use adit_tests::service::Service;
-use serde_json::json;
+use serde_json::{Value, json};
 
 use super::{cost, hardness, served};
 
@@ -182,4 +182,40 @@ fn an_undo_that_cannot_be_is_the_callers_mistake() {
         let (status, answer) = service.ask("POST", "/api/edits", Some(&undo));
         assert_eq!(status, expected, "{edit}: {answer}");
     }
+}
+
+#[test]
+fn a_table_goes_out_as_a_file_and_comes_back_as_one_edit() {
+    let files = "map = \"map.toml\"\nrobots = \"robots.toml\"\n";
+    let site = TestSite::example("starter").with("site.toml", files).built();
+    let service = Service::start(&site);
+    let text = String::from_utf8(service.bytes("/api/tables/robots.csv")).unwrap();
+    assert_eq!(text.trim_end(), site.adit("table", &["robots"]).expecting(0).stdout.trim_end());
+    let take = |file: &str, content: Value| {
+        let mut edit = json!({"kind": "take", "table": "robots", "file": file});
+        edit.as_object_mut().unwrap().extend(content.as_object().unwrap().clone());
+        service.ask("POST", "/api/edits", Some(&json!({ "edit": edit })))
+    };
+    let softer = text.replace("WALK-ON-KNEE,1.1,0.8,4", "WALK-ON-KNEE,1.1,0.8,3");
+    let (status, edited) = take("robots.csv", json!({"text": softer}));
+    assert_eq!((status, &edited["done"]["new"]), (200, &json!("1 cell set\n  robot/SQUAT.hardness: 4 → 3")));
+    assert_eq!(site.sqlite3("SELECT hardness FROM robots WHERE state = 'SQUAT'"), ["3.0"]);
+    for (file, content, said) in [
+        ("robots.csv", json!({"text": softer}), "the table robots holds what robots.csv says already"),
+        (
+            "robots.csv",
+            json!({"text": softer.replace(",3,", ",soft,")}),
+            "robots.csv: `hardness` of `robots` holds numbers, and `soft` is none",
+        ),
+        ("robots.txt", json!({"text": softer}), "robots.txt is neither .csv nor .xlsx"),
+        ("robots.xlsx", json!({"text": softer}), "robots.xlsx is no workbook"),
+        ("robots.csv", json!({"base64": "?"}), "`base64` is not Base64"),
+        ("robots.csv", json!({}), "is in `text` or in `base64`"),
+    ] {
+        let (status, refused) = take(file, content);
+        let message = refused["error"]["message"].as_str().unwrap();
+        assert!(status >= 400 && message.contains(said), "{refused}");
+    }
+    let (status, unknown) = service.ask("GET", "/api/tables/robot.csv", None);
+    assert_eq!((status, &unknown["error"]["help"]), (404, &json!("did you mean `robots`?")), "{unknown}");
 }

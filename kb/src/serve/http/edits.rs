@@ -1,10 +1,13 @@
 //! Edits, and what they would change. What tests of rules gave belongs to them: a circle with `http/rules`.
 
 use std::collections::BTreeMap;
+use std::path::Path;
 use std::time::{Duration, Instant};
 
 use adit_db::history::Author;
 use axum::Json;
+use base64::Engine;
+use base64::prelude::BASE64_STANDARD;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
@@ -17,6 +20,7 @@ use crate::preview::{Preview, Wanted};
 use crate::serve::fault::{Answered, Failure, Fault};
 use crate::serve::gate::require;
 use crate::serve::role::{Caller, Role};
+use crate::site::sheet::Sheet;
 
 /// The longest that routes between places are compared.
 const PATIENCE_MS: u64 = 10_000;
@@ -82,6 +86,18 @@ pub enum Wish {
     },
     /// A row that goes.
     Remove { table: String, key: String },
+    /// A table whose rows are those of a file from now on; columns that the file has not stay as they are.
+    Take {
+        table: String,
+        /// The name of the file, which says what it is: `orders.csv`, `orders.xlsx`.
+        file: String,
+        /// What it holds, of a file of text.
+        #[serde(default)]
+        text: Option<String>,
+        /// The same in Base64, of any file.
+        #[serde(default)]
+        base64: Option<String>,
+    },
     Tell {
         /// The class, as `DOORS`.
         class: String,
@@ -194,6 +210,19 @@ impl Wish {
                 cells.into_iter().map(|(column, value)| (column, value.cell())).collect(),
             ),
             Self::Remove { table, key } => Edit::Remove(table, key),
+            Self::Take { table, file, text, base64 } => {
+                let bytes = match (text, base64) {
+                    (Some(text), None) => text.into_bytes(),
+                    (None, Some(coded)) => BASE64_STANDARD.decode(coded).map_err(|error| {
+                        Fault::new(Code::EditUsage, format!("`base64` is not Base64: {error}"))
+                    })?,
+                    _ => {
+                        let message = "what the file holds is in `text` or in `base64`, in one of them";
+                        return Err(Fault::new(Code::EditUsage, message));
+                    }
+                };
+                Edit::Table(table, Sheet::of(Path::new(&file), bytes)?)
+            }
             Self::Tell { until: Some(_), for_seconds: Some(_), .. }
             | Self::Close { until: Some(_), for_seconds: Some(_), .. } => {
                 let message = "a fact ends at `until` or after `for_seconds`, not both";

@@ -1,19 +1,24 @@
 //! The tables that people tune, and named tunings.
 
 use std::collections::BTreeMap;
+use std::path::PathBuf;
 
 use adit_db::relation::{Form, Reference, Relation, RelationColumn};
 use adit_db::{Cell, Tx};
 use axum::Json;
+use axum::http::header;
+use axum::response::{IntoResponse, Response};
 use serde::Serialize;
 use utoipa::ToSchema;
 
-use super::extract::Site;
+use super::extract::{Named, Site};
 use crate::edit;
-use crate::error::Result;
+use crate::error::{Code, Error, Result};
 use crate::knowledge::tunings;
 use crate::knowledge::{LAYOUT, generation};
 use crate::serve::fault::Answered;
+use crate::site::sheet;
+use crate::words::suggest::did_you_mean;
 
 #[derive(Serialize, ToSchema)]
 pub struct TablesAnswer {
@@ -76,11 +81,7 @@ pub async fn tables(site: Site) -> Answered<Json<TablesAnswer>> {
 }
 
 fn read_all(tx: &mut Tx<'_>) -> Result<TablesAnswer> {
-    let own = tx.user_tables()?.into_iter().filter(|table| table.form == Form::Table);
-    let has_places = tx.site_value(LAYOUT)?.is_some() && !tx.places()?.is_empty();
-    let of_map = has_places.then(|| "places".to_owned());
-    let names = edit::TUNABLE.iter().map(ToString::to_string).chain(of_map);
-    let names: Vec<String> = names.chain(own.map(|table| table.name)).collect();
+    let names = tuned(tx)?;
     let in_force = tunings::in_force(tx)?;
     let derivations = tx.read_table("derivations")?;
     let mut tables = Vec::new();
@@ -102,6 +103,43 @@ fn read_all(tx: &mut Tx<'_>) -> Result<TablesAnswer> {
         tables.push(table);
     }
     Ok(TablesAnswer { generation: generation::read(tx)?, tables })
+}
+
+/// The tables that people tune, by name.
+fn tuned(tx: &mut Tx<'_>) -> Result<Vec<String>> {
+    let own = tx.user_tables()?.into_iter().filter(|table| table.form == Form::Table);
+    let has_places = tx.site_value(LAYOUT)?.is_some() && !tx.places()?.is_empty();
+    let of_map = has_places.then(|| "places".to_owned());
+    let names = edit::TUNABLE.iter().map(ToString::to_string).chain(of_map);
+    Ok(names.chain(own.map(|table| table.name)).collect())
+}
+
+/// One of these tables as a file: `robots.csv`, `robots.xlsx`. What is in it is taken back with the edit `take`.
+#[utoipa::path(get, path = "/api/tables/{file}", tag = "tables",
+    params(("file" = String, Path, description = "The table, and what the file is to be: `robots.csv`, `robots.xlsx`")),
+    responses((status = 200, body = String, content_type = "text/csv")))]
+pub async fn file(site: Site, Named(file): Named<String>) -> Answered<Response> {
+    let path = PathBuf::from(&file);
+    sheet::check(&path)?;
+    let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    let kind = if path.extension().is_some_and(|ending| ending == "csv") {
+        "text/csv; charset=utf-8"
+    } else {
+        "application/vnd.openxmlformats-officedocument.spreadsheetml.sheet"
+    };
+    let written = site.read(move |tx| {
+        let names = tuned(tx)?;
+        if !names.contains(&name) {
+            let help = did_you_mean(&name, names.iter().map(String::as_str));
+            return Err(Error::said(Code::EditUnknownTable, format!("there is no table `{name}`"), help));
+        }
+        sheet::written(&path, &tx.read_table(&name)?)
+    });
+    let headers = [
+        (header::CONTENT_TYPE, kind.to_owned()),
+        (header::CONTENT_DISPOSITION, format!("attachment; filename=\"{file}\"")),
+    ];
+    Ok((headers, written.await?).into_response())
 }
 
 fn table(relation: &Relation, overridden: Vec<Overridden>) -> TableOf {

@@ -1,0 +1,47 @@
+/** A table as a file: out, to a spreadsheet, and in again, as one edit among the others. */
+
+import { call } from './api.js';
+import { titleOf } from './cells.js';
+import { button, download, el, fill } from './dom.js';
+import { model } from './model.js';
+import { said } from './notice.js';
+import { put } from './pending.js';
+
+/** What a file may hold, bytes: the service reads no more in one request, and Base64 is longer by a third. */
+const MOST_BYTES = 1_400_000;
+
+const XLSX = 'application/vnd.openxmlformats-officedocument.spreadsheetml.sheet';
+
+async function save(name, ending, answer) {
+  try {
+    const bytes = await call('GET', `/api/tables/${encodeURIComponent(name)}.${ending}`, undefined, { bytes: true });
+    download(`${name}.${ending}`, ending === 'csv' ? 'text/csv' : XLSX, bytes);
+    fill(answer);
+  } catch (error) {
+    fill(answer, said(error));
+  }
+}
+
+/** Takes up the rows of a file, in place of those that are there. */
+async function take(name, file, answer) {
+  if (file.size > MOST_BYTES) {
+    fill(answer, el('p', { class: 'wrong', text: `${file.name} is larger than ${MOST_BYTES / 1e6} MB; what is so large is taken in parts.` }));
+    return;
+  }
+  const bytes = new Uint8Array(await file.arrayBuffer());
+  const base64 = btoa(Array.from(bytes, (byte) => String.fromCharCode(byte)).join(''));
+  put(`file:${name}`, { words: `${titleOf(name)} as in ${file.name}`, edits: [{ kind: 'take', table: name, file: file.name, base64 }] });
+  fill(answer);
+}
+
+/** What stands under a table: the way out to a file, and the way in for those who may tune. */
+export function fileForms({ table: name }) {
+  const answer = el('div', { role: 'status' });
+  const out = ['csv', 'xlsx'].map((ending) => button(`Download ${ending.toUpperCase()}`, () => save(name, ending, answer)));
+  const chosen = el('input', { type: 'file', accept: `.csv,.xlsx,text/csv,${XLSX}` });
+  // The same file, edited once more, is taken again.
+  chosen.addEventListener('click', () => { chosen.value = ''; });
+  chosen.addEventListener('change', () => chosen.files[0] && take(name, chosen.files[0], answer));
+  const into = model.may('tune') ? el('label', {}, 'Take the rows of a file ', chosen) : null;
+  return el('details', { class: 'row-forms' }, el('summary', { text: 'As a file' }), el('div', { class: 'buttons' }, ...out), into, answer);
+}
