@@ -256,6 +256,8 @@ impl<'s> Search<'s> {
 
     fn filtered(&mut self, number: usize, test: Option<&Node>, frame: Frame) -> Result<(), Stopped> {
         let Some(test) = test else { return self.advance(number + 1, frame) };
+        // where nothing passes nobody else looks at the clock
+        self.machine.tick()?;
         let truths = self.machine.values(test, &frame).truths().into_static();
         if self.plan.hypothesis.is_some() {
             let unknown = (0..frame.len).filter(|&index| truths.at(index) == Truth::Unknown);

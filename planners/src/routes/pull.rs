@@ -21,6 +21,9 @@ const GAIN: f64 = 1e-7;
 /// A stop is slid to its best place so finely, metres: finer than points are told apart.
 const FINE_M: f64 = 0.1 * SNAP_M;
 
+/// Steps in which it is slid there at most; halving alone would take some thirty.
+const STEPS: usize = 100;
+
 /// A door on a way.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Link {
@@ -352,7 +355,7 @@ impl Chain<'_> {
             let (one, two) =
                 (self.graph.per_m(self.room_before(stop)), self.graph.per_m(self.links[stop].room));
             let cost = |p: Point| one * from.distance(p) + two * p.distance(to);
-            let best = least(&part, cost);
+            let best = least(&part, (one, from), (two, to));
             if cost(best) < cost(self.links[stop].at) {
                 self.links[stop].at = best;
             }
@@ -375,7 +378,7 @@ impl Chain<'_> {
         let cost = |p: Point| one * from.distance(p) + two * p.distance(to);
         let mut best: Option<(f64, Vec<Link>)> = None;
         for link in self.stops_beside(before, &here) {
-            let at = least(&link.segment, cost);
+            let at = least(&link.segment, (one, from), (two, to));
             let gain = cost(here.at) - cost(at);
             if gain <= GAIN * cost(here.at) || best.as_ref().is_some_and(|(most, _)| gain <= *most) {
                 continue;
@@ -442,22 +445,47 @@ fn seen_through(from: Point, door: Segment, part: Segment) -> Option<Segment> {
     View::Through(Gap::new(from, door, door, [NONE; 2])).of(from, part)
 }
 
-/// Where on a segment a convex function is least.
-fn least(segment: &Segment, cost: impl Fn(Point) -> f64) -> Point {
-    let golden = (5.0_f64.sqrt() - 1.0) / 2.0;
-    let (mut low, mut high) = (0.0, 1.0);
-    while (high - low) * segment.length() > FINE_M {
-        let (one, two) = (high - golden * (high - low), low + golden * (high - low));
-        if cost(segment.at(one)) <= cost(segment.at(two)) {
-            high = two;
+/// Where on a segment a way from one point and on to another one costs least, each with what a metre on its side weighs: Newton's
+/// method on the slope of what it costs, within the stretch where that changes its sign.
+fn least(segment: &Segment, (one, from): (f64, Point), (two, to): (f64, Point)) -> Point {
+    let (length, ahead) = (segment.length(), segment.direction());
+    let [from_seen, to_seen] = [from, to].map(|p| (p - segment.a).seen_along(ahead));
+    // how fast the cost grows along the segment, and how fast that does
+    let grows = |x: f64| {
+        [(one, from_seen), (two, to_seen)].into_iter().fold((0.0, 0.0), |(slope, curve), (weight, p)| {
+            let (along, aside) = (x - p.x, p.y * p.y);
+            let square = along * along + aside;
+            if square <= 0.0 {
+                return (slope, curve);
+            }
+            let distance = square.sqrt();
+            (slope + weight * along / distance, curve + weight * aside / (square * distance))
+        })
+    };
+    let (mut low, mut high) = (0.0, length);
+    let aside = from_seen.y.abs() + to_seen.y.abs();
+    let straight = (from_seen.x * to_seen.y.abs() + to_seen.x * from_seen.y.abs()) / aside;
+    let mut x = if straight > low && straight < high { straight } else { 0.5 * length };
+    for _ in 0..STEPS {
+        let (slope, curve) = grows(x);
+        if slope > 0.0 {
+            high = x;
         } else {
-            low = one;
+            low = x;
+        }
+        let next = x - slope / curve;
+        let next = if next > low && next < high { next } else { f64::midpoint(low, high) };
+        let is_there = (next - x).abs() <= FINE_M || high - low <= FINE_M;
+        x = next;
+        if is_there {
+            break;
         }
     }
     // an end beats a point just beside it
-    let inner = segment.at(f64::midpoint(low, high));
+    let inner = segment.at(if length > 0.0 { x / length } else { 0.0 });
+    let cost = |p: &Point| one * from.distance(*p) + two * p.distance(to);
     let all = [segment.a, segment.b, inner];
-    all.into_iter().min_by(|a, b| cost(*a).total_cmp(&cost(*b))).unwrap_or(inner)
+    all.into_iter().min_by(|a, b| cost(a).total_cmp(&cost(b))).unwrap_or(inner)
 }
 
 /// A door as one comes to it.

@@ -50,7 +50,7 @@ impl Search<'_> {
             cost < limit && {
                 let dx = (q.x - about.x0).abs().max((q.x - about.x1).abs());
                 let dy = (q.y - about.y0).abs().max((q.y - about.y1).abs());
-                cost + there * dx.hypot(dy) < limit
+                cost + there * (dx * dx + dy * dy).sqrt() < limit
             }
         })
     }
