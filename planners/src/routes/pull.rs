@@ -466,6 +466,7 @@ fn least(segment: &Segment, (one, from): (f64, Point), (two, to): (f64, Point)) 
     let aside = from_seen.y.abs() + to_seen.y.abs();
     let straight = (from_seen.x * to_seen.y.abs() + to_seen.x * from_seen.y.abs()) / aside;
     let mut x = if straight > low && straight < high { straight } else { 0.5 * length };
+    let mut was_short = false;
     for _ in 0..STEPS {
         let (slope, curve) = grows(x);
         if slope > 0.0 {
@@ -473,13 +474,15 @@ fn least(segment: &Segment, (one, from): (f64, Point), (two, to): (f64, Point)) 
         } else {
             low = x;
         }
-        let next = x - slope / curve;
-        let next = if next > low && next < high { next } else { f64::midpoint(low, high) };
-        let is_there = (next - x).abs() <= FINE_M || high - low <= FINE_M;
-        x = next;
-        if is_there {
+        if high - low <= FINE_M {
             break;
         }
+        let step = -slope / curve;
+        // a short step may have come to the place or, beside a point that all but lies on the segment, not come on: one over it tells
+        let is_short = step.abs() < FINE_M;
+        let next = x + if is_short { FINE_M.copysign(step) } else { step };
+        let is_within = next > low && next < high && !(is_short && was_short);
+        (x, was_short) = (if is_within { next } else { f64::midpoint(low, high) }, is_short);
     }
     // an end beats a point just beside it
     let inner = segment.at(if length > 0.0 { x / length } else { 0.0 });
