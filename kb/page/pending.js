@@ -1,6 +1,7 @@
 /** What was edited and is not saved yet: cells, rows, and what is drawn on the map. It is previewed and saved together. */
 
 import { model } from './model.js';
+import { banner } from './notice.js';
 
 /** How a cell is named among what is pending. */
 export const cellId = (table, key, column, tuning) => JSON.stringify(tuning ? [table, key, column, tuning] : [table, key, column]);
@@ -42,7 +43,13 @@ function set({ table, key, column, old, value, tuning }, withOld) {
 
 /** What is pending as edits that the service understands. */
 export function edits(withOld) {
-  return [...model.pending.values()].filter((item) => !item.wrong).flatMap((item) => item.edits ?? [set(item, withOld)]);
+  const items = [...model.pending.values()].filter((item) => !item.wrong);
+  // A table is as its file has it before its cells are set.
+  const isFile = (item) => item.edits?.some(({ kind }) => kind === 'take');
+  const files = items.filter(isFile);
+  const taken = new Set(files.flatMap((item) => item.edits.map(({ table }) => table)));
+  const others = items.filter((item) => !isFile(item)).flatMap((item) => item.edits ?? [set(item, withOld && !taken.has(item.table))]);
+  return [...files.flatMap((item) => item.edits), ...others];
 }
 
 /** A row's key without the robot where there is but one: `SQUAT`. */
@@ -69,9 +76,19 @@ export function keepPending() {
   } catch {
     sessionStorage.removeItem(KEPT);
   }
+  let wasKept = true;
   model.on('pending', () => {
     const items = [...model.pending];
-    if (items.length) sessionStorage.setItem(KEPT, JSON.stringify({ site: model.site.name, items }));
-    else sessionStorage.removeItem(KEPT);
+    // What is too large to keep is there until the page is closed or loaded again.
+    let isKept = true;
+    sessionStorage.removeItem(KEPT);
+    try {
+      if (items.length) sessionStorage.setItem(KEPT, JSON.stringify({ site: model.site.name, items }));
+    } catch {
+      isKept = false;
+    }
+    if (wasKept === isKept) return;
+    wasKept = isKept;
+    banner('kept', isKept ? null : 'What waits is too large to outlive a reload of this page: save it, or leave some of it.');
   });
 }

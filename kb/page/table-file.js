@@ -5,7 +5,7 @@ import { titleOf } from './cells.js';
 import { button, download, el, fill } from './dom.js';
 import { model } from './model.js';
 import { said } from './notice.js';
-import { put } from './pending.js';
+import { discard, put } from './pending.js';
 
 /** What a file may hold, bytes: the service reads no more in one request, and Base64 is longer by a third. */
 const MOST_BYTES = 1_400_000;
@@ -25,11 +25,19 @@ async function save(name, ending, answer) {
 /** Takes up the rows of a file, in place of those that are there. */
 async function take(name, file, answer) {
   if (file.size > MOST_BYTES) {
-    fill(answer, el('p', { class: 'wrong', text: `${file.name} is larger than ${MOST_BYTES / 1e6} MB; what is so large is taken in parts.` }));
+    fill(answer, el('p', { class: 'wrong', text: `${file.name} is larger than ${MOST_BYTES / 1e6} MB, and the page takes no more: whoever runs the service can take it in.` }));
     return;
   }
-  const bytes = new Uint8Array(await file.arrayBuffer());
+  let bytes;
+  try {
+    bytes = new Uint8Array(await file.arrayBuffer());
+  } catch {
+    fill(answer, el('p', { class: 'wrong', text: `${file.name} cannot be read.` }));
+    return;
+  }
   const base64 = btoa(Array.from(bytes, (byte) => String.fromCharCode(byte)).join(''));
+  // What waits for the table was set beside the rows of before.
+  for (const [id, { table: of, rows, edits }] of model.pending) if (of === name || rows?.some(({ table }) => table === name) || edits?.some(({ table }) => table === name)) discard(id);
   put(`file:${name}`, { words: `${titleOf(name)} as in ${file.name}`, edits: [{ kind: 'take', table: name, file: file.name, base64 }] });
   fill(answer);
 }

@@ -22,7 +22,14 @@ function box(of) {
   return el('label', { class: waits ? 'waits' : null }, input, ` ${of.tuning}`);
 }
 
+/** What the boxes show, as text. */
+let shown = '';
+
 function header() {
+  // A box that is made anew between the finger going down and up hears no click.
+  const now = JSON.stringify([model.may('tune'), ...model.tunings.map(({ tuning, on }) => [tuning, on, model.pending.has(switchId(tuning))])]);
+  if (now === shown) return;
+  shown = now;
   byId('tunings').hidden = !model.tunings.length;
   refill(byId('tunings'), el('span', { text: 'Tunings' }), ...model.tunings.map(box));
 }

@@ -20,7 +20,10 @@ pub(crate) fn failure(rule: &Rule, start: Position, error: &EvalAltResult) -> (D
         | EvalAltResult::ErrorMismatchOutputType(expected, found, _)
             if !expected.is_empty() && !found.is_empty() =>
         {
-            format!("this is {}, expected {}", kind(found), kind(expected))
+            match (kind(found), kind(expected)) {
+                ("a number", "a number") => "this is a number, expected a whole number".to_owned(),
+                (found, expected) => format!("this is {found}, expected {expected}"),
+            }
         }
         _ => error.to_string(),
     };
@@ -37,10 +40,10 @@ pub(crate) fn failure(rule: &Rule, start: Position, error: &EvalAltResult) -> (D
 /// That there is no such function of such values, as in `<< (f64, f64)`.
 fn not_there(signature: &str) -> String {
     let (name, types) = signature.split_once(" (").unwrap_or((signature, ")"));
-    let kinds: Vec<&str> =
-        types.trim_end_matches(')').split(", ").filter(|of| !of.is_empty()).map(kind).collect();
+    let types = types.strip_suffix(')').unwrap_or(types);
+    let kinds: Vec<&str> = types.split(", ").filter(|of| !of.is_empty()).map(kind).collect();
     match kinds.split_last() {
-        None => format!("there is no function `{name}` of nothing"),
+        None => format!("there is no function `{name}` that is given nothing"),
         Some((only, [])) => format!("there is no `{name}` of {only}"),
         Some((last, others)) => format!("there is no `{name}` of {} and {last}", others.join(", ")),
     }
@@ -54,7 +57,7 @@ fn kind(of: &str) -> &str {
         "string" | "str" | "char" => "a text",
         "array" => "a list",
         "map" => "a map",
-        "()" => "nothing",
+        "()" => "what is unknown",
         "Fn" => "a function",
         _ if of.contains("String") => "a text",
         _ => of,

@@ -146,8 +146,9 @@ fn slip((before, after): (&str, &str)) -> Option<String> {
     if after.starts_with(',') && is_digit(before.chars().last()) && is_digit(after.chars().nth(1)) {
         return Some("a number is written with a point, not with a comma".to_owned());
     }
-    let condition = before.trim_end().strip_suffix("then")?.trim_end();
-    let sign = ["&&", "||", "==", "!=", "<", ">", "=", "+", "-", "*", "/"];
+    let condition =
+        before.trim_end().strip_suffix("then").filter(|condition| condition.ends_with(' '))?.trim_end();
+    let sign = ["&&", "||", "==", "!=", "<=", ">=", "**", "<", ">", "=", "+", "-", "*", "/", "%"];
     let sign = sign.into_iter().find(|sign| condition.ends_with(sign))?;
     Some(format!("the condition before `then` ends in `{sign}`: something belongs behind it, or it goes"))
 }
@@ -178,7 +179,7 @@ fn syntax_message(error: &ParseErrorType, about: (&str, &str)) -> String {
             _ => "a `;` belongs before this, to part it from the statement before".to_owned(),
         },
         ParseErrorType::MissingToken(token, _) if token == "," => {
-            "a `,` belongs before this, to part it from what stands before".to_owned()
+            "a `,` belongs before this, or the bracket before it is not closed".to_owned()
         }
         ParseErrorType::MissingToken(token, _) if matches!(token.as_str(), "}" | "]" | ")") => {
             let opened = match token.as_str() {

@@ -120,7 +120,7 @@ fn a_million_million_matches_are_stopped() {
     assert_eq!(report.diagnostics[0].code, Code::Deadline);
     assert!(report.diagnostics[0].message.starts_with("rule \"r\" was stopped"));
     // 40 s before, for 200 ms that it was given: a batch in which nothing passed was gone through to its end
-    assert!(began.elapsed() < Duration::from_secs(20), "{:?}", began.elapsed());
+    assert!(began.elapsed() < Duration::from_secs(6), "{:?}", began.elapsed());
 }
 
 #[test]

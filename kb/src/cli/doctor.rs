@@ -51,10 +51,7 @@ pub fn check(args: &SiteArgs) -> Result<bool> {
         if sound {
             line(&format!("{what} are in order"));
         } else if args.site.join("site.toml").exists() {
-            let is_wrong = |problem: &Finding| {
-                matches!(problem.diagnostic().severity(), None | Some(miette::Severity::Error))
-            };
-            line(if found.iter().any(is_wrong) {
+            line(if found.iter().any(Finding::is_error) {
                 "something is wrong; the site is as it was"
             } else {
                 "it can be built, but something looks wrong; the site is as it was"

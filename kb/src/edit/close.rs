@@ -163,7 +163,8 @@ pub(super) fn shut_all_the_same(tx: &mut Tx<'_>, what: &str) -> Result<Option<St
         return Ok(None);
     }
     let what = what.trim();
-    let (class, object) = named(tx, what)?;
+    // what was made with it may have taken the name away
+    let Ok((class, object)) = named(tx, what) else { return Ok(None) };
     let building = Building::read(tx)?;
     let is_doorway_shut = |name: &str| {
         building

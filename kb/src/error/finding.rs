@@ -78,6 +78,14 @@ impl Finding {
         self.diagnostic().severity().is_none_or(|severity| severity == Severity::Error)
     }
 
+    /// The text about what it marks, line by line, if it marks anything.
+    pub fn text(&self) -> Option<String> {
+        let diagnostic = self.diagnostic();
+        let marked = diagnostic.labels()?.next()?;
+        let text = diagnostic.source_code()?.read_span(marked.inner(), 1, 1).ok()?;
+        Some(String::from_utf8_lossy(text.data()).into_owned())
+    }
+
     pub fn code(&self) -> Option<Code> {
         match &self.0 {
             Kind::Said(said) => said.code,

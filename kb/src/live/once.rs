@@ -64,7 +64,7 @@ impl KnowledgeBase {
         let mut tables = self.tables_of_map();
         tables.extend(tables::read(&site.tables())?);
         let (places, loads) = (self.places_of_map(), self.loads_of_map());
-        store.transaction(|tx| {
+        let built = store.transaction(|tx| {
             let notes = seed.map(|seed| seed.seed_tables(tx, &site.robots, again)).transpose()?;
             let mut notes = notes.unwrap_or_default();
             for table in &tables {
@@ -84,6 +84,14 @@ impl KnowledgeBase {
                 }
             }
             Ok((memory, report))
+        });
+        built.map_err(|error: Error| {
+            let is_of_type = |problem: &&Finding| problem.code() == Some(Code::Rule(adit_engine::Code::Type));
+            let texts: Vec<String> =
+                error.problems().iter().filter(is_of_type).filter_map(Finding::text).collect();
+            let is_meant = |column: &str| texts.iter().any(|text| text.contains(&format!(".{column}")));
+            let mixed = if texts.is_empty() { Vec::new() } else { tables::mixed(&site.tables(), is_meant) };
+            Error::all(error.into_problems().into_iter().chain(mixed))
         })
     }
 

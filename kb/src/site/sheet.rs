@@ -1,7 +1,7 @@
 //! Tables as files: CSV, and the first sheet of an XLSX workbook. A line with the names of the columns, then a line a row.
 
 use std::collections::BTreeMap;
-use std::io::Cursor;
+use std::io::{Cursor, Read};
 use std::path::{Path, PathBuf};
 
 use adit_db::Cell;
@@ -9,12 +9,19 @@ use adit_db::relation::{Relation, RelationColumn};
 use calamine::{DataRef, Reader, Xlsx, XlsxError};
 use miette::NamedSource;
 use rust_xlsxwriter::{Format, Workbook};
+use zip::ZipArchive;
 
 use crate::error::{Code, Error, Finding, Result};
 use crate::words::cells;
 
 /// Rows that a sheet of a workbook holds, the names of the columns included.
 const MOST_ROWS: usize = 1_048_576;
+
+/// Bytes that a workbook of one's own folders holds at most, unpacked: one that is small may unpack to more than there is memory.
+const MOST_UNPACKED: u64 = 2 << 30;
+
+/// Cells of a table that is read from a workbook, those included in which nothing stands.
+const MOST_CELLS: usize = 32_000_000;
 
 /// A file of a table, as texts.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,11 +47,12 @@ enum Lines {
 
 /// Whether a file is one of a table, by its name.
 pub fn is_sheet(path: &Path) -> bool {
-    path.extension().is_some_and(|extension| ["csv", "xlsx"].iter().any(|known| extension == *known))
+    path.extension()
+        .is_some_and(|ending| ["csv", "xlsx"].iter().any(|known| ending.eq_ignore_ascii_case(known)))
 }
 
 fn is_workbook(path: &Path) -> bool {
-    path.extension().is_some_and(|extension| extension == "xlsx")
+    path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("xlsx"))
 }
 
 /// Whether a text may name a table or a column: rules name them.
@@ -70,13 +78,17 @@ impl Sheet {
     pub fn read(path: &Path) -> Result<Self> {
         check(path)?;
         let bytes = std::fs::read(path).map_err(|error| Error::io("read", path, &error))?;
-        Self::of(path, bytes)
+        Self::of(path, bytes, MOST_UNPACKED)
     }
 
     /// What a file of this name holds.
-    pub fn of(path: &Path, bytes: Vec<u8>) -> Result<Self> {
+    ///
+    /// # Arguments
+    /// `most` is how many bytes it may have unpacked.
+    pub fn of(path: &Path, bytes: Vec<u8>, most: u64) -> Result<Self> {
         check(path)?;
-        let (lines, rows) = if is_workbook(path) { of_workbook(path, bytes)? } else { of_text(path, bytes)? };
+        let (lines, rows) =
+            if is_workbook(path) { of_workbook(path, bytes, most)? } else { of_text(path, bytes)? };
         let mut rows = rows.into_iter();
         let Some(head) = rows.next() else {
             let help = Some("the first line names the columns".to_owned());
@@ -167,9 +179,9 @@ impl Sheet {
     }
 }
 
-type Read = (Lines, Vec<Vec<String>>);
+type Parts = (Lines, Vec<Vec<String>>);
 
-fn of_text(path: &Path, bytes: Vec<u8>) -> Result<Read> {
+fn of_text(path: &Path, bytes: Vec<u8>) -> Result<Parts> {
     let file = path.display();
     let text = String::from_utf8(bytes).map_err(|error| {
         let message = format!("{file}: byte {} is no UTF-8", error.utf8_error().valid_up_to());
@@ -204,9 +216,16 @@ fn of_text(path: &Path, bytes: Vec<u8>) -> Result<Read> {
     Ok((Lines::Text(text, lines), rows))
 }
 
-fn of_workbook(path: &Path, bytes: Vec<u8>) -> Result<Read> {
+fn of_workbook(path: &Path, bytes: Vec<u8>, most: u64) -> Result<Parts> {
     let file = path.display();
     let wrong = |message: String| Error::said(Code::TableFile, message, None);
+    let too_much = || {
+        let message = format!("{file} unpacks to more than {} MB", most >> 20);
+        Error::said(Code::TableFile, message, Some("save it as .csv".to_owned()))
+    };
+    if unpacks_to_more(&bytes, most) {
+        return Err(too_much());
+    }
     let mut book: Xlsx<_> = Xlsx::new(Cursor::new(bytes)).map_err(|error| match error {
         XlsxError::Zip(_) => {
             let help = "save it as .xlsx in a spreadsheet program, or give a file of CSV the ending .csv";
@@ -218,6 +237,7 @@ fn of_workbook(path: &Path, bytes: Vec<u8>) -> Result<Read> {
     let unread = |error: XlsxError| wrong(format!("{file}: its first sheet cannot be read: {error}"));
     // cell by cell: one that stands far off takes no more room than any other
     let mut found: BTreeMap<(u32, u32), String> = BTreeMap::new();
+    let mut left = most;
     let mut cells = book.worksheet_cells_reader(&name).map_err(unread)?;
     while let Some(cell) = cells.next_cell().map_err(unread)? {
         let (row, column) = cell.get_position();
@@ -236,6 +256,8 @@ fn of_workbook(path: &Path, bytes: Vec<u8>) -> Result<Read> {
             }
         };
         if !text.trim().is_empty() {
+            // many cells may share one text
+            left = left.checked_sub(text.len() as u64).ok_or_else(too_much)?;
             found.insert((row, column), text);
         }
     }
@@ -256,7 +278,11 @@ fn of_workbook(path: &Path, bytes: Vec<u8>) -> Result<Read> {
     };
     let last =
         found.range((head, 0)..=(head, u32::MAX)).next_back().map_or(first, |((_, column), _)| *column);
+    if let Some(gap) = (first..=last).find(|column| !found.contains_key(&(head, *column))) {
+        return Err(wrong(format!("{file}: column {} has no name", letters(gap))));
+    }
     let width = (last - first + 1) as usize;
+    let mut cells = 0;
     let (mut numbers, mut rows): (Vec<usize>, Vec<Vec<String>>) = (Vec::new(), Vec::new());
     for ((row, column), text) in found {
         if !(first..=last).contains(&column) {
@@ -264,6 +290,10 @@ fn of_workbook(path: &Path, bytes: Vec<u8>) -> Result<Read> {
             return Err(wrong(format!("{file}: cell {cell} stands in a column without a name")));
         }
         if numbers.last() != Some(&(row as usize + 1)) {
+            cells += width;
+            if cells > MOST_CELLS {
+                return Err(too_much());
+            }
             numbers.push(row as usize + 1);
             rows.push(vec![String::new(); width]);
         }
@@ -272,6 +302,43 @@ fn of_workbook(path: &Path, bytes: Vec<u8>) -> Result<Read> {
         }
     }
     Ok((Lines::Sheet(numbers), rows))
+}
+
+/// Whether what is packed has more bytes, whatever it says of itself. What is no archive says so to whoever reads it.
+fn unpacks_to_more(bytes: &[u8], most: u64) -> bool {
+    let Ok(mut archive) = ZipArchive::new(Cursor::new(bytes)) else { return false };
+    let (mut all, mut buffer) = (0, vec![0; 1 << 16]);
+    for number in 0..archive.len() {
+        // what cannot be opened here nobody else opens either
+        let Ok(mut packed) = archive.by_index(number) else { continue };
+        let (mut own, mut begins) = (0, Vec::new());
+        while let Ok(count) = packed.read(&mut buffer)
+            && count > 0
+        {
+            own += count as u64;
+            if all + own > most {
+                return true;
+            }
+            begins.extend_from_slice(&buffer[..count.min(BEGINNING - begins.len().min(BEGINNING))]);
+        }
+        // room is made for so many texts as it says that there are
+        if said_to_be(&begins).is_some_and(|texts| texts > own) {
+            return true;
+        }
+        all += own;
+    }
+    false
+}
+
+/// So far into a part of a workbook its root says what it holds, bytes.
+const BEGINNING: usize = 4096;
+
+/// How many texts a part of a workbook says that it has.
+fn said_to_be(begins: &[u8]) -> Option<u64> {
+    let text = String::from_utf8_lossy(begins);
+    let (_, after) = text.split_once("uniqueCount=")?;
+    let digits: String = after.chars().skip(1).take_while(char::is_ascii_digit).collect();
+    Some(digits.parse().unwrap_or(u64::MAX))
 }
 
 /// The name of a column of a sheet: A, B, ... AA.

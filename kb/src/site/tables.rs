@@ -8,7 +8,8 @@ use adit_db::{Cell, Tx};
 use adit_planners::facts::{Column, Table};
 
 use super::sheet::{Sheet, is_sheet};
-use crate::error::{Code, Error, Result};
+use crate::error::{Code, Error, Finding, Result};
+use crate::words::number::counted;
 
 /// A table of a file.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,6 +34,28 @@ pub fn files(folder: &Path) -> Vec<PathBuf> {
 /// Reads all of them.
 pub fn read(folder: &Path) -> Result<Vec<TableFile>> {
     files(folder).iter().map(|path| TableFile::of(&Sheet::read(path)?)).collect()
+}
+
+/// Cells that are no numbers in columns that hold numbers otherwise, so that rules take the whole column for texts.
+///
+/// # Arguments
+/// `is_meant` says of a column whether it is asked about.
+pub fn mixed(folder: &Path, is_meant: impl Fn(&str) -> bool) -> Vec<Finding> {
+    let mut found = Vec::new();
+    for sheet in files(folder).iter().filter_map(|path| Sheet::read(path).ok()) {
+        for (at, column) in sheet.columns.iter().enumerate().filter(|(_, column)| is_meant(column)) {
+            let cells = sheet.rows.iter().map(|row| row[at].trim()).enumerate();
+            let (numbers, texts): (Vec<_>, Vec<_>) =
+                cells.filter(|(_, cell)| !cell.is_empty()).partition(|(_, cell)| is_number(cell));
+            let Some((row, text)) = texts.first().filter(|_| texts.len() < numbers.len()) else { continue };
+            let others = counted(numbers.len(), "cell");
+            let message =
+                format!("`{text}` is no number, and {others} of `{column}` are: all of it counts as texts");
+            let help = "a number stands alone in its cell, written with a point";
+            found.extend(sheet.wrong(Some(*row), &message, help).into_problems());
+        }
+    }
+    found
 }
 
 impl TableFile {
@@ -142,13 +165,6 @@ fn kind<'c>(cells: impl Iterator<Item = &'c str> + Clone) -> &'static str {
     if known.peek().is_none() {
         return "TEXT";
     }
-    // `007` and `+1` are names, and not numbers
-    let is_plain = |cell: &str| {
-        let digits = cell.strip_prefix('-').unwrap_or(cell);
-        let is_padded = digits.len() > 1 && digits.starts_with('0') && !digits.starts_with("0.");
-        !digits.starts_with('+') && !is_padded
-    };
-    let is_number = |cell: &str| is_plain(cell) && cell.parse::<f64>().is_ok_and(f64::is_finite);
     if known.clone().all(|cell| cell == "true" || cell == "false") {
         "BOOLEAN"
     } else if known.clone().all(|cell| is_plain(cell) && cell.parse::<i64>().is_ok()) {
@@ -158,4 +174,15 @@ fn kind<'c>(cells: impl Iterator<Item = &'c str> + Clone) -> &'static str {
     } else {
         "TEXT"
     }
+}
+
+/// `007` and `+1` are names, and not numbers.
+fn is_plain(cell: &str) -> bool {
+    let digits = cell.strip_prefix('-').unwrap_or(cell);
+    let is_padded = digits.len() > 1 && digits.starts_with('0') && !digits.starts_with("0.");
+    !digits.starts_with('+') && !is_padded
+}
+
+fn is_number(cell: &str) -> bool {
+    is_plain(cell) && cell.parse::<f64>().is_ok_and(f64::is_finite)
 }

@@ -1,13 +1,13 @@
 //! The step: what is told now, what planners give for it, what rules conclude, and what rooms and doors weigh then.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use adit_db::door::Door;
 use adit_db::place::Place;
 use adit_db::room::Room;
 use adit_db::schema::Row as _;
-use adit_engine::{Changes, KnowledgeBase as Inference, Severity};
+use adit_engine::{Changes, Diagnostic, KnowledgeBase as Inference, Severity};
 use adit_planners::facts::{Column, Facts, Table};
 use adit_planners::planner::Planner;
 use adit_planners::world::World;
@@ -285,7 +285,12 @@ impl State {
     fn conclude(&mut self) -> Result<Changes> {
         let changes = self.knowledge.update(&self.inputs.rules);
         let failed = self.knowledge.problems(&self.inputs.rules);
-        let failed: Vec<_> = failed.into_iter().filter(|found| found.severity == Severity::Error).collect();
+        // a rule that is planned for each of its outputs says of each what is wrong with all
+        let mut said = BTreeSet::new();
+        let mut is_new =
+            |found: &Diagnostic| said.insert((found.file.clone(), found.span, found.message.clone()));
+        let failed: Vec<Diagnostic> =
+            failed.into_iter().filter(|found| found.severity == Severity::Error && is_new(found)).collect();
         if failed.is_empty() { Ok(changes) } else { Err(Error::all(failed)) }
     }
 

@@ -52,13 +52,15 @@ fn no_rust_file_knows_a_state_or_its_hardness() {
     let words = ["IMPOSSIBLE", "NO-ACTION", "10000", "STAND", "SQUAT"];
     for folder in ["engine/src", "planners/src", "db/src", "db/sql", "kb/src"] {
         let ran =
-            Command::new("grep").arg("-rnwE").arg(words.join("|")).arg(repository().join(folder)).output();
+            Command::new("grep").arg("-rnE").arg(words.join("|")).arg(repository().join(folder)).output();
         let found: Vec<String> = Ran::new(&ran.unwrap())
             .stdout
             .lines()
             .filter(|line| {
                 !line.contains("/tests/")
                     && !line.contains("//")
+                    && !line.contains("100000")
+                    && !line.contains("BASE64_STANDARD")
                     && !line.contains("adit tune")
                     && !line.contains("{adit} tune")
             })

@@ -92,6 +92,21 @@ fn rows_come_and_go_and_what_is_wrong_names_the_row() {
     site.adit("table", &["orders", "--from", &at(&site, "orders.xlsx")])
         .expecting(2)
         .complains(&["is no workbook"]);
+    // small ones for which more memory would be asked than there may be
+    let bombs = "import openpyxl, zipfile
+book = openpyxl.Workbook()
+book.active.append(['order*', 'pieces'])
+book.save('many.xlsx')
+with zipfile.ZipFile('many.xlsx', 'a') as to:
+    to.writestr('xl/sharedStrings.xml', '<sst uniqueCount=\"1000000000000\"></sst>')
+book.active['XFD1'] = 'far'
+book.save('wide.xlsx')";
+    python(&site, bombs);
+    for (file, said) in
+        [("wide.xlsx", "column C has no name"), ("many.xlsx", "many.xlsx unpacks to more than")]
+    {
+        site.adit("table", &["orders", "--from", &at(&site, file)]).expecting(2).complains(&[said]);
+    }
     site.adit("table", &["orders", "--to", &at(&site, "orders.ods")])
         .expecting(2)
         .complains(&["neither .csv nor .xlsx"]);
@@ -227,4 +242,20 @@ fn a_state_whose_name_is_misspelt_in_a_file_is_said_to_take_its_changes_with_it(
     assert!(said.stderr.contains("what it costs robot to change into SQAT and out of it"), "{}", said.stderr);
     let gone = site.adit("tune", &["robots", "--remove", "SQAT"]).expecting(0).stdout;
     assert!(gone.contains("robots.robot/SQAT is gone\n"), "{gone}");
+}
+
+#[test]
+fn a_word_among_numbers_is_named_with_its_line_where_rules_want_numbers() {
+    let products =
+        std::fs::read_to_string(TestSite::example("shop").path().join("tables/products.csv")).unwrap();
+    let soft = products.replacen("39.90", "39,90 EUR", 1).replacen("39,90 EUR", "\"39,90 EUR\"", 1);
+    assert_ne!(soft, products);
+    let site = TestSite::example("shop").with("tables/products.csv", &soft);
+    let said = site.adit("build", &[]).expecting(2);
+    said.complains(&[
+        "numbers are wanted here",
+        "`39,90 EUR` is no number",
+        "products.csv:2",
+        "of `price` are",
+    ]);
 }

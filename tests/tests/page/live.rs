@@ -163,3 +163,23 @@ async fn what_another_program_writes_is_seen() {
         .until("!document.querySelector('#route-title').innerText.includes('92.0')", "the way follows")
         .await;
 }
+
+#[tokio::test(flavor = "multi_thread")]
+async fn what_stands_against_an_opening_is_said() {
+    let site = TestSite::example("starter")
+        .with("site.toml", "map = \"map.toml\"\nrobots = \"robots.toml\"\n")
+        .built();
+    site.adit("lay", &["area", "stairs", "1,1 2,2", "--kind", "keep-out"]).expect_status(0);
+    let service = Service::start(&site);
+    let browser = Browser::open(&service.page("#map?start=home&goal=window"), Screen::Desktop).await;
+    browser.says("#route-title", "home to window").await;
+    for (title, said) in [
+        ("Close stairs", "Close stairs: done."),
+        ("Open stairs again", "But stairs stays shut all the same: ask why about"),
+    ] {
+        browser.tap_on_map([1.5, 1.5]).await;
+        browser.press("#popover", title).await;
+        browser.press("#tell-card", title).await;
+        browser.says("#saved", said).await;
+    }
+}

@@ -456,6 +456,9 @@ async fn ctrl_enter_saves_wherever_the_focus_is() {
     browser.says("#saved", "Tuning “night” on").await;
     assert_eq!(site.sqlite3("SELECT tuning FROM active_tunings"), ["night"]);
 
+    browser.until("document.querySelector('#tunings input').checked", "it is on").await;
+    // so soon again it would count as the second half of a double click
+    tokio::time::sleep(std::time::Duration::from_millis(700)).await;
     browser.click("#tunings input").await;
     until_it_may_be_saved(&browser).await;
     browser.run("document.activeElement.blur()").await;

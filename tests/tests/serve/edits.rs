@@ -216,6 +216,18 @@ fn a_table_goes_out_as_a_file_and_comes_back_as_one_edit() {
         let message = refused["error"]["message"].as_str().unwrap();
         assert!(status >= 400 && message.contains(said), "{refused}");
     }
+    // a small one that unpacks to much
+    let zeros = "import base64, io, sys, zipfile
+packed = io.BytesIO()
+with zipfile.ZipFile(packed, 'w', zipfile.ZIP_DEFLATED) as to: to.writestr('xl/sharedStrings.xml', bytes(33 << 20))
+sys.stdout.write(base64.b64encode(packed.getvalue()).decode())";
+    let made = std::process::Command::new("python3").args(["-c", zeros]).output().unwrap();
+    let (status, refused) = take("robots.xlsx", json!({"base64": String::from_utf8(made.stdout).unwrap()}));
+    let message = refused["error"]["message"].as_str().unwrap();
+    assert!(status >= 400 && message.contains("unpacks to more than 32 MB"), "{refused}");
+    assert!(service.bytes("/api/tables/robots.xlsx").starts_with(b"PK"));
+    let (status, _) = service.ask("GET", "/api/tables/x%2Frobots.csv", None);
+    assert_eq!(status, 404);
     let (status, unknown) = service.ask("GET", "/api/tables/robot.csv", None);
     assert_eq!((status, &unknown["error"]["help"]), (404, &json!("did you mean `robots`?")), "{unknown}");
 }

@@ -28,6 +28,12 @@ const PATIENCE_MS: u64 = 10_000;
 /// Edits that may be previewed or made together.
 const TOGETHER: usize = 1_000;
 
+/// Files among them.
+const FILES: usize = 8;
+
+/// Bytes that a file unpacks to at most.
+const UNPACKED: u64 = 32 << 20;
+
 /// A value as JSON has it: a number, a text, a truth value, or null for none.
 #[derive(Debug, Deserialize)]
 #[serde(untagged, expecting = "expected a number, a text, true, false or null")]
@@ -183,6 +189,10 @@ pub enum Wish {
 }
 
 impl Wish {
+    fn is_file(&self) -> bool {
+        matches!(self, Self::Take { .. })
+    }
+
     /// The roles that it takes.
     fn roles(&self) -> Vec<Role> {
         match self {
@@ -221,7 +231,7 @@ impl Wish {
                         return Err(Fault::new(Code::EditUsage, message));
                     }
                 };
-                Edit::Table(table, Sheet::of(Path::new(&file), bytes)?)
+                Edit::Table(table, Sheet::of(Path::new(&file), bytes, UNPACKED)?)
             }
             Self::Tell { until: Some(_), for_seconds: Some(_), .. }
             | Self::Close { until: Some(_), for_seconds: Some(_), .. } => {
@@ -281,6 +291,9 @@ fn roles(edits: &[Wish]) -> Vec<Role> {
 fn all(edits: Vec<Wish>) -> Answered<Vec<Edit>> {
     if edits.len() > TOGETHER {
         return Err(Fault::new(Code::ServiceTooMany, format!("up to {TOGETHER} edits go together")));
+    }
+    if edits.iter().filter(|edit| edit.is_file()).count() > FILES {
+        return Err(Fault::new(Code::ServiceTooMany, format!("up to {FILES} files go together")));
     }
     edits.into_iter().map(Wish::edit).collect()
 }
@@ -394,7 +407,9 @@ async fn with_current(site: &Site, edit: &Edit, mut fault: Fault) -> Fault {
     responses((status = 200, body = Edited), (status = 409, description = "the cell holds another value by now", body = Failure)))]
 pub async fn edit(site: Site, caller: Caller, Body(body): Body<EditBody>) -> Answered<Json<Edited>> {
     body.edit.roles().into_iter().try_for_each(|role| require(&caller, role))?;
-    make(&site, &caller, body.edit.edit()?, body.why.unwrap_or_default()).await.map(Json)
+    let wish = body.edit;
+    let edit = site.beside(move || wish.edit()).await?;
+    make(&site, &caller, edit, body.why.unwrap_or_default()).await.map(Json)
 }
 
 /// Where a robot is that cannot go on.
@@ -462,7 +477,11 @@ pub async fn preview(site: Site, caller: Caller, Body(body): Body<PreviewBody>) 
     if roles(&body.edits).contains(&Role::Rules) {
         require(&caller, Role::Rules)?;
     }
-    let edits = all(body.edits)?;
+    if body.edits.iter().any(Wish::is_file) {
+        require(&caller, Role::Tune)?;
+    }
+    let wishes = body.edits;
+    let edits = site.beside(move || all(wishes)).await?;
     let folder = site.view.load().view.site().rule_folder();
     let preview = site.on_fork(move |fork| {
         let mut fork = fork.within(body.within)?;

@@ -16,7 +16,7 @@ use crate::edit;
 use crate::error::{Code, Error, Result};
 use crate::knowledge::tunings;
 use crate::knowledge::{LAYOUT, generation};
-use crate::serve::fault::Answered;
+use crate::serve::fault::{Answered, Fault};
 use crate::site::sheet;
 use crate::words::suggest::did_you_mean;
 
@@ -119,14 +119,14 @@ fn tuned(tx: &mut Tx<'_>) -> Result<Vec<String>> {
     params(("file" = String, Path, description = "The table, and what the file is to be: `robots.csv`, `robots.xlsx`")),
     responses((status = 200, body = String, content_type = "text/csv")))]
 pub async fn file(site: Site, Named(file): Named<String>) -> Answered<Response> {
-    let path = PathBuf::from(&file);
-    sheet::check(&path)?;
-    let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-    let kind = if path.extension().is_some_and(|ending| ending == "csv") {
-        "text/csv; charset=utf-8"
+    let (name, kind) = if let Some(name) = file.strip_suffix(".csv") {
+        (name.to_owned(), "text/csv; charset=utf-8")
+    } else if let Some(name) = file.strip_suffix(".xlsx") {
+        (name.to_owned(), "application/vnd.openxmlformats-officedocument.spreadsheetml.sheet")
     } else {
-        "application/vnd.openxmlformats-officedocument.spreadsheetml.sheet"
+        return Err(Fault::new(Code::TableFile, format!("{file} is neither .csv nor .xlsx")));
     };
+    let path = PathBuf::from(&file);
     let written = site.read(move |tx| {
         let names = tuned(tx)?;
         if !names.contains(&name) {
