@@ -49,7 +49,8 @@ export function edits(withOld) {
   const files = items.filter(isFile);
   const taken = new Set(files.flatMap((item) => item.edits.map(({ table }) => table)));
   const others = items.filter((item) => !isFile(item)).flatMap((item) => item.edits ?? [set(item, withOld && !taken.has(item.table))]);
-  return [...files.flatMap((item) => item.edits), ...others];
+  const wanted = files.flatMap((item) => item.edits.map(({ version, ...edit }) => (withOld ? { ...edit, version } : edit)));
+  return [...wanted, ...others];
 }
 
 /** A row's key without the robot where there is but one: `SQUAT`. */

@@ -5,20 +5,20 @@ import { difference } from './difference.js';
 import { button, byId, debounced, el, fill, focusStays, keep } from './dom.js';
 import { drafts, files, forget, loadFiles, overtaken, rebase } from './drafts.js';
 import { reopen } from './draw.js';
-import { cost, count, list, number, value } from './format.js';
+import { count, list, value } from './format.js';
 import { firmWithin, pauseFirm, resumeFirm } from './firm.js';
 import { model } from './model.js';
 import { said } from './notice.js';
 import { cells, discard, edits, keyName, restore } from './pending.js';
 import { refresh } from './refresh.js';
-import { address, isOpen } from './router.js';
 import { andThen, focusSaved, forgetSaved, showSaved } from './saved.js';
+import { cellList, conclusionList, routeList, rulesTried, summary, thisRoute } from './summary.js';
+import { otherRows, outdated } from './table-file.js';
 import { isOn } from './tunings.js';
 
 const WAIT = 120;
 const QUICK = 30;
 const THOROUGH = 5000;
-const MOST_ROUTES = 50;
 let stop = null;
 let failed = null;
 let refused = null;
@@ -68,92 +68,6 @@ const ask = debounced(async () => {
 const inOneWord = (item) => item.words ?? `${keyName(item.key)} ${item.column.replaceAll('_', ' ')} ${value(item.old)} → ${item.tuning && item.value === null ? 'as in the tables' : value(item.value)}${item.tuning ? ` in the tuning “${item.tuning}”${isOn(item.tuning) ? '' : ', which is off'}` : ''}`;
 const isWrong = (item) => `${item.words ?? `${keyName(item.key)} ${item.column}`}: ${item.wrong}`;
 
-const TESTS_SHOWN = 5;
-
-/** That all tests of the rules pass, in words. */
-export const allPass = (total) => (total === 1 ? 'The one test of the rules passes.' : `All ${count(total, 'test')} of the rules pass.`);
-
-/** What becomes of the rules: their tests, and which of them decide about more or less than now. */
-function rulesTried(rules) {
-  if (!rules) return null;
-  const total = rules.passed + rules.failed;
-  const word = rules.failed ? `${rules.failed} of ${count(total, 'test')} of the rules would fail, so this cannot be saved.` : total ? allPass(total) : 'No tests of the rules were run: there are none.';
-  const failures = rules.failures.slice(0, TESTS_SHOWN).map((of) => el('li', {}, of.line ? el('a', { href: address('rules', { file: of.file, line: String(of.line) }), text: `${of.file}, line ${of.line}` }) : null, `${of.line ? ': ' : ''}${of.message}`));
-  const more = rules.failures.length > TESTS_SHOWN ? el('li', { text: `and ${rules.failures.length - TESTS_SHOWN} more` }) : null;
-  return el('div', { id: 'preview-rules' }, el('p', { class: rules.failed ? 'wrong' : total ? 'right' : 'hint', text: word }), failures.length ? el('ul', { class: 'plain problems' }, ...failures, more) : null, deciding(rules.decides));
-}
-
-function deciding(decides) {
-  if (!decides.length) return null;
-  const noun = model.site.rooms_mode === 'none' || model.site.layout_kind ? 'object' : 'room or door';
-  const many = (n) => (n === 1 ? `1 ${noun}` : `${n} ${noun === 'object' ? 'objects' : 'rooms and doors'}`);
-  const line = ({ rule, old, new: now }) => {
-    const what = old === null ? (now ? `new: decides about ${many(now)}` : 'new: decides about nothing yet')
-      : now === null ? `gone: decided about ${many(old)}`
-        : old === now ? `decides about ${many(now)}, others than now` : `decides about ${many(now)}, and about ${old} now`;
-    return el('li', {}, el('q', { text: rule }), ` ${what}`);
-  };
-  return el('details', { open: decides.length <= 4 }, el('summary', { text: 'Rules that decide otherwise' }), el('ul', { class: 'plain' }, ...decides.map(line)));
-}
-
-/** The counts, in the expert's terms. */
-export function summary(preview) {
-  const parts = [];
-  const { rooms, doors, routes } = preview;
-  if (model.site.layout_kind) {
-    // there are no rooms that could change
-  } else if (model.site.rooms_mode === 'none') return [preview.conclusions.length ? `${count(preview.conclusions.length, 'conclusion')} would change.` : 'No conclusion would change.'];
-  // Where the floor is cut anew, a room is no longer the one that it was: there is none to count.
-  if (preview.layout_changed) parts.push('The floor would be cut into rooms anew.');
-  else if (doors.changed || rooms.changed) parts.push(`${list([doors.changed ? count(doors.changed, 'door') : null, rooms.changed ? count(rooms.changed, 'room') : null].filter(Boolean))} would change.`);
-  else if (!model.site.layout_kind && !preview.closings?.length) parts.push('No room or door would change.');
-  // Where there are too many to compare while somebody types, the service says how many it did.
-  const compared = routes?.compared ?? routes?.total ?? 0;
-  if (routes?.total && !compared) parts.push(`${count(routes.total, 'route')} between places are too many to compare while you type.`);
-  else if (routes?.total) {
-    const all = compared < routes.total ? `${compared} of ${count(routes.total, 'route')} between places that were compared in time` : `${count(routes.total, 'route')} between places`;
-    const kinds = [['shorter', 'cheaper'], ['longer', 'dearer'], ['lost', 'lost'], ['found', 'possible at all']].filter(([name]) => routes[name]).map(([name, word]) => `${routes[name]} ${word === 'lost' ? (routes[name] === 1 ? 'is' : 'are') : routes[name] === 1 ? 'becomes' : 'become'} ${word}`);
-    const ways = routes.rerouted ? `${routes.rerouted} ${routes.rerouted === 1 ? 'leads' : 'lead'} another way` : '';
-    parts.push(routes.changed || routes.rerouted
-      ? `Of ${all} ${list([...kinds, ways].filter(Boolean))}.`
-      : `None of ${all} changes.`);
-  }
-  return parts;
-}
-
-/** What becomes of the way that is looked at. */
-export function thisRoute(preview) {
-  const [before, after] = [preview.before, preview.route];
-  if (!before && !after) return null;
-  const was = before?.cost;
-  const becomes = after?.cost;
-  const text = becomes === undefined || becomes === null ? 'The way that you look at would be lost.'
-    : was === undefined || was === null ? `The way that you ask for would be found: cost ${cost(becomes)}.`
-      : Math.abs(was - becomes) < 5e-7 * Math.max(1, was) ? `The way that you look at stays at ${cost(was)}.`
-        : null;
-  if (text) return el('p', { text });
-  return el('p', {}, 'The way that you look at: ', el('s', { text: cost(was) }), ' ', el('b', { text: cost(becomes) }), leadsElsewhere(before, after) ? (model.site.layout_kind || !isOpen('map') ? ', another way' : ', another way (hatched in amber)') : ', the same way');
-}
-
-const through = (route) => route.steps.map(({ place, action }) => `${place} ${action}`).join();
-const leadsElsewhere = (one, other) => through(one) !== through(other);
-
-function conclusionList(conclusions) {
-  if (!conclusions?.length) return null;
-  const items = conclusions.slice(0, MOST_ROUTES).map(({ what, property, old, new: now }) => el('li', {}, `${what}: ${property.replaceAll('_', ' ')} `, el('s', { text: shown(old) }), ' ', el('b', { text: shown(now) })));
-  const more = conclusions.length > MOST_ROUTES ? el('li', { text: `and ${conclusions.length - MOST_ROUTES} more` }) : null;
-  return el('ul', { class: 'plain' }, ...items, more);
-}
-
-const shown = (of) => (typeof of === 'number' ? number(of) : value(of));
-
-function routeList(routes) {
-  if (!routes?.list?.length) return null;
-  const items = routes.list.slice(0, MOST_ROUTES).map(({ start, goal, old, new: now, other_way: other }) => el('li', {}, `${start} to ${goal}: `, el('s', { text: cost(old) }), ' ', el('b', { text: cost(now) }), other ? ' another way' : ''));
-  const more = routes.list.length > MOST_ROUTES ? el('li', { text: `and ${routes.list.length - MOST_ROUTES} more` }) : null;
-  return el('details', {}, el('summary', { text: 'Which routes' }), el('ul', { class: 'plain' }, ...items, more));
-}
-
 // Made once: a button that is replaced while somebody presses it does nothing, and a field loses what is typed.
 let card = null;
 
@@ -202,7 +116,7 @@ function leave(id) {
 function told() {
   const { preview } = model;
   if (failed) return [said(failed)];
-  if (preview) return [el('p', { id: 'preview-summary', text: summary(preview).join(' ') }), thisRoute(preview), rulesTried(preview.rules), conclusionList(preview.conclusions), routeList(preview.routes), firmWithin(cells().map(([, cell]) => cell))];
+  if (preview) return [el('p', { id: 'preview-summary', text: summary(preview).join(' ') }), thisRoute(preview), rulesTried(preview.rules), cellList(preview.cells), conclusionList(preview.conclusions), routeList(preview.routes), firmWithin(cells().map(([, cell]) => cell))];
   return [...model.pending.values()].every((item) => item.wrong) ? [] : [el('p', { class: 'hint', text: 'Looking what would change…' })];
 }
 
@@ -234,7 +148,7 @@ function show() {
   fill(card.told, ...told());
   card.told.setAttribute('aria-busy', String(Boolean(model.preview) && !isPreviewed()));
   const clashes = [...conflicts].filter(([id]) => model.pending.has(id));
-  fill(card.clashes, refused ? said(refused) : null, ...clashes.map(([id, error]) => conflict(id, error)), ...overtaken().map(otherFile));
+  fill(card.clashes, refused ? said(refused) : null, ...clashes.map(([id, error]) => conflict(id, error)), ...overtaken().map(otherFile), ...outdated().map(otherRows));
   card.whose.hidden = Boolean(sessionStorage.getItem('adit-token'));
   card.save.textContent = size === 1 ? 'Save' : `Save all ${size}`;
   card.save.disabled = !maySave() || !isPreviewed() || Boolean(model.preview?.rules?.failed);
@@ -242,7 +156,7 @@ function show() {
   card.unseen.disabled = !maySave();
 }
 
-const maySave = () => !saving && !overtaken().length && ![...model.pending].some(([id, item]) => item.wrong || conflicts.has(id));
+const maySave = () => !saving && !overtaken().length && !outdated().length && ![...model.pending].some(([id, item]) => item.wrong || conflicts.has(id));
 
 // What would change cannot be told: too large, too late. Whoever saves it all the same has to say so.
 const isPreviewless = () => Boolean(failed && failed.status >= 500);
@@ -319,7 +233,7 @@ async function saveAll(isKnown) {
       const current = present(cell);
       if (current !== undefined && current !== cell.old) conflicts.set(id, { message: `${keyName(cell.key)} ${cell.column} is ${value(current)} by now, and was ${value(cell.old)} when you began.`, current });
     }
-    if (!conflicts.size && !overtaken().length) keepRefusal = error;
+    if (!conflicts.size && !overtaken().length && !outdated().length) keepRefusal = error;
   }
   saving = false;
   model.set('pending', new Map(model.pending));

@@ -8,8 +8,8 @@ import { count } from './format.js';
 import { showGrids, startGrids } from './grids.js';
 import { model } from './model.js';
 import { said } from './notice.js';
-import { allPass } from './preview.js';
 import { isOpen, onTab, remember } from './router.js';
+import { allPass } from './summary.js';
 import { startVersions, showVersions } from './versions.js';
 import { startVocabulary } from './vocabulary.js';
 

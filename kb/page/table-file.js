@@ -38,9 +38,25 @@ async function take(name, file, answer) {
   const base64 = btoa(Array.from(bytes, (byte) => String.fromCharCode(byte)).join(''));
   // What waits for the table was set beside the rows of before.
   for (const [id, { table: of, rows, edits }] of model.pending) if (of === name || rows?.some(({ table }) => table === name) || edits?.some(({ table }) => table === name)) discard(id);
-  put(`file:${name}`, { words: `${titleOf(name)} as in ${file.name}`, edits: [{ kind: 'take', table: name, file: file.name, base64 }] });
+  keep({ kind: 'take', table: name, file: file.name, base64 });
   fill(answer);
 }
+
+const idOf = (name) => `file:${name}`;
+
+/** Has a file wait for a table as it is now. */
+function keep(edit) {
+  put(idOf(edit.table), { words: `${titleOf(edit.table)} as in ${edit.file}`, edits: [{ ...edit, version: model.table(edit.table)?.version }] });
+}
+
+/** Files that wait for tables which are others by now than when they were taken. */
+export const outdated = () => [...model.pending.values()].flatMap(({ edits }) => (edits?.[0].kind === 'take' && edits[0].version !== model.table(edits[0].table)?.version ? edits : []));
+
+/** What is said of one, and what can be done. */
+export const otherRows = (edit) => el('div', { class: 'conflict' },
+  el('p', { class: 'wrong', role: 'alert', text: `${titleOf(edit.table)}: somebody else edited these rows since ${edit.file} was taken. Listed above is what the file changes of them as they are now.` }),
+  el('div', { class: 'line-form' }, button('Leave the file', () => discard(idOf(edit.table)), { class: 'take-theirs' }),
+    button('Take it all the same', () => keep(edit), { class: 'set-mine' })));
 
 /** What stands under a table: the way out to a file, and the way in for those who may tune. */
 export function fileForms({ table: name }) {

@@ -3,7 +3,7 @@
 import { post } from './api.js';
 import { sure } from './dom.js';
 import { count } from './format.js';
-import { allPass, summary } from './preview.js';
+import { allPass, summary } from './summary.js';
 
 function testsOf({ rules }) {
   if (!rules) return '';

@@ -5,7 +5,7 @@ import { debounced, el, fill } from './dom.js';
 import { untilWhen } from './format.js';
 import { model } from './model.js';
 import { said } from './notice.js';
-import { summary, thisRoute } from './preview.js';
+import { summary, thisRoute } from './summary.js';
 
 const WAIT = 150;
 

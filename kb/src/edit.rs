@@ -50,8 +50,8 @@ pub enum Edit {
     Add(String, String, Vec<(String, String)>),
     /// A row that goes: table, key.
     Remove(String, String),
-    /// A table whose rows are those of a file from now on.
-    Table(String, Sheet),
+    /// A table whose rows are those of a file from now on; of a version that it must still have, where one is said.
+    Table(String, Sheet, Option<String>),
     Tell(Tell),
     /// What nobody passes from now on.
     Close(Close),
@@ -134,7 +134,7 @@ impl Edit {
                 let gone = tx.remove_row(table, key, author);
                 gone.map_err(|error| explain(tx, error, table, key, ""))?
             }
-            Self::Table(table, sheet) => table::take(tx, table, sheet, author)?,
+            Self::Table(table, sheet, seen) => table::take(tx, (table, seen.as_deref()), sheet, author)?,
             Self::Tell(tell) => {
                 let row = tell.row(tx, site, rules, author)?;
                 tx.add_row("told", &row, author)?
@@ -232,7 +232,7 @@ impl Edit {
     fn remark(&self, tx: &mut Tx<'_>, done: &Done) -> Result<Option<String>> {
         match self {
             Self::Add(table, ..) if table == "robots" => unpriced(tx, Some(&done.key)),
-            Self::Table(table, _) if table == "robots" => unpriced(tx, None),
+            Self::Table(table, ..) if table == "robots" => unpriced(tx, None),
             Self::Close(close) => match close::for_longer(tx, &close.what, &done.key)? {
                 None => close::open_all_the_same(tx, &close.what, &done.key),
                 word => Ok(word),

@@ -37,11 +37,17 @@ pub(crate) fn failure(rule: &Rule, start: Position, error: &EvalAltResult) -> (D
     )
 }
 
+/// The signs that have to do with the bits of whole numbers.
+const BITS: [&str; 5] = ["<<", ">>", "&", "|", "^"];
+
 /// That there is no such function of such values, as in `<< (f64, f64)`.
 fn not_there(signature: &str) -> String {
     let (name, types) = signature.split_once(" (").unwrap_or((signature, ")"));
     let types = types.strip_suffix(')').unwrap_or(types);
     let kinds: Vec<&str> = types.split(", ").filter(|of| !of.is_empty()).map(kind).collect();
+    if BITS.contains(&name) && kinds.iter().all(|kind| *kind == "a number") {
+        return format!("`{name}` takes whole numbers alone: it is of their bits");
+    }
     match kinds.split_last() {
         None => format!("there is no function `{name}` that is given nothing"),
         Some((only, [])) => format!("there is no `{name}` of {only}"),

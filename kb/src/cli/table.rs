@@ -39,7 +39,7 @@ pub fn run(args: &TableArgs) -> Result<()> {
     args.to.iter().try_for_each(|file| sheet::check(file))?;
     let knowledge = open(&args.site)?;
     if let Some(file) = &args.from {
-        let edit = Edit::Table(args.table.clone(), Sheet::read(file)?);
+        let edit = Edit::Table(args.table.clone(), Sheet::read(file)?, None);
         return apply(&knowledge, &edit, args.why.as_deref(), (args.dry_run, args.site.json));
     }
     let mut store = Store::open_read_only(knowledge.database())?;

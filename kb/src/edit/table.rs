@@ -10,6 +10,7 @@ use adit_db::relation::RelationColumn;
 
 use super::cells::{cell_of, columns, explain, gone_with, is_equal};
 use crate::error::{Code, Error, Result};
+use crate::knowledge::tables::version;
 use crate::site::robots::ONLY_ROBOT;
 use crate::site::sheet::Sheet;
 use crate::words::number::counted;
@@ -17,6 +18,9 @@ use crate::words::suggest::did_you_mean;
 
 /// So many changes are listed one by one.
 const LISTED: usize = 20;
+
+/// So many entries of the history are looked through for who edited a table.
+const SEARCHED: u32 = 1_000;
 
 /// How many cells were set, rows added and rows removed.
 #[derive(Clone, Copy, Default)]
@@ -39,9 +43,18 @@ impl Count {
     }
 }
 
-/// Makes the rows of a table those of a file; columns that the file has not stay as they are. Nothing differs: an error.
-pub(super) fn take(tx: &mut Tx<'_>, table: &str, sheet: &Sheet, author: &Author) -> Result<Edited> {
+/// Makes the rows of a table those of a file; columns that the file has not stay as they are. Nothing differs, or the table is no
+/// longer of the version that the editor saw: an error.
+pub(super) fn take(
+    tx: &mut Tx<'_>,
+    (table, seen): (&str, Option<&str>),
+    sheet: &Sheet,
+    author: &Author,
+) -> Result<Edited> {
     let columns = columns(tx, table)?;
+    if seen.is_some_and(|seen| version(&columns) != seen) {
+        return Err(conflict(tx, table)?);
+    }
     let file = Columns::of(table, &columns, sheet)?;
     let mut kept: BTreeMap<Vec<String>, usize> = BTreeMap::new();
     for row in 0..columns.first().map_or(0, |column| column.values.len()) {
@@ -119,6 +132,16 @@ pub(super) fn take(tx: &mut Tx<'_>, table: &str, sheet: &Sheet, author: &Author)
             let message = format!("the table {table} holds what {} says already", sheet.path.display());
             Error::said(Code::EditNoDifference, message, None)
         })
+}
+
+/// That a table holds other rows by now: who made it so, and when.
+fn conflict(tx: &mut Tx<'_>, table: &str) -> Result<Error> {
+    let last = tx.history(SEARCHED)?.into_iter().find(|edit| edit.table == table);
+    let by = last.map_or_else(String::new, |edit| format!(", edited by {} at {}", edit.who, edit.at));
+    let message = format!("the table {table} is another by now than the file was taken for{by}");
+    let help =
+        "look at what it holds, and at what the file would change of it; then take the file again".to_owned();
+    Ok(Error::said(Code::EditConflict, message, Some(help)))
 }
 
 /// Which column of the table each column of the file is; of a robot that the file leaves out there is one.

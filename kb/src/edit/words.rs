@@ -32,7 +32,7 @@ impl Edit {
             }
             Self::Add(table, ..) => format!("{table}.{key} is new"),
             Self::Remove(table, ..) => format!("{table}.{key} is gone{}", gone_with(old)),
-            Self::Table(table, sheet) => format!("{table} is as {} has it: {new}", sheet.path.display()),
+            Self::Table(table, sheet, _) => format!("{table} is as {} has it: {new}", sheet.path.display()),
             Self::Tell(fact) => {
                 format!("fact {key}: {} {} {} = {}", fact.class, fact.object, fact.property, fact.value)
             }

@@ -110,6 +110,25 @@ pub fn keys(relation: &Relation) -> Vec<String> {
     (0..rows).map(key).collect()
 }
 
+/// Names what a table holds, so that whoever edits it from a file can say which rows they saw.
+pub fn version(columns: &[RelationColumn]) -> String {
+    let mut hasher = SipHasher13::new();
+    for column in columns {
+        (&column.name, column.values.len()).hash(&mut hasher);
+        for cell in &column.values {
+            std::mem::discriminant(cell).hash(&mut hasher);
+            match cell {
+                Cell::Null => {}
+                Cell::Integer(value) => value.hash(&mut hasher),
+                Cell::Real(value) => value.to_bits().hash(&mut hasher),
+                Cell::Text(text) => text.hash(&mut hasher),
+                Cell::Blob(bytes) => bytes.hash(&mut hasher),
+            }
+        }
+    }
+    format!("{:016x}", hasher.finish())
+}
+
 /// Whether SQLite numbers the rows of a table: its key is a whole number, which comes first.
 pub fn is_numbered(relation: &Relation) -> bool {
     let is_key = |column: &RelationColumn| column.key > 0;

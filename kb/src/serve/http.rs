@@ -19,6 +19,7 @@ mod service;
 mod sql;
 mod stream;
 mod tables;
+mod trial;
 mod why;
 
 use std::sync::Arc;
@@ -81,7 +82,7 @@ fn described() -> (Router<Arc<Shared>>, OpenApi) {
         .routes(routes!(experience::fit))
         .routes(routes!(rules::list))
         .routes(routes!(rules::save, rules::remove))
-        .routes(routes!(rules::check))
+        .routes(routes!(trial::check))
         .routes(routes!(rules::versions))
         .routes(routes!(rules::complete))
         .routes(routes!(rules::classes))

@@ -129,13 +129,30 @@ async fn a_table_goes_to_a_file_and_the_rows_of_a_file_are_previewed_before_they
     let row = before.lines().find(|line| line.contains(&robots[0])).unwrap();
     browser.run(&give("states.csv", &before.replace(&format!("{row}\n"), ""))).await;
     browser.says("#preview", "Robot states as in states.csv").await;
+    browser.says("#preview-cells", "cells would change").await;
     browser.screenshot("rows-of-a-file").await;
+    // somebody else edits the table meanwhile
+    site.adit("tune", &["robots", &robots_last(&site), "hardness", "7"]).expect_status(0);
+    browser.says("#preview", "somebody else edited these rows since states.csv was taken").await;
+    let is_listed =
+        "[...document.querySelectorAll('#preview-cells li')].some((of) => / 7 /.test(of.textContent))";
+    browser.until(is_listed, "what the file would set back is listed").await;
+    assert_eq!(browser.value("document.querySelector('#save').disabled").await, true);
+    browser.screenshot("rows-of-a-file-of-before").await;
+    browser.press("#preview", "Take it all the same").await;
     until_it_may_be_saved(&browser).await;
     browser.click("#save").await;
     browser.says("#saved", "Saved: Robot states as in states.csv").await;
     assert_eq!(site.sqlite3("SELECT count(*) FROM robots"), [(robots.len() - 1).to_string()]);
+    assert_eq!(site.sqlite3("SELECT count(*) FROM robots WHERE hardness = 7"), ["0"]);
     browser.click("#undo").await;
     browser.press("dialog", "Take it back").await;
     browser.says("#saved", "Taken back").await;
+    site.adit("undo", &[]).expect_status(0);
     assert_eq!(site.adit("table", &["robots"]).expecting(0).stdout, before);
+}
+
+/// The state of the paper's robot that stands last.
+fn robots_last(site: &TestSite) -> String {
+    site.sqlite3("SELECT state FROM robots ORDER BY position DESC").remove(0)
 }

@@ -216,6 +216,24 @@ fn a_table_goes_out_as_a_file_and_comes_back_as_one_edit() {
         let message = refused["error"]["message"].as_str().unwrap();
         assert!(status >= 400 && message.contains(said), "{refused}");
     }
+    // one that was taken for the rows of before
+    let versions = |service: &Service| {
+        let (_, answer) = service.ask("GET", "/api/tables", None);
+        let of = answer["tables"].as_array().unwrap().iter().find(|of| of["table"] == "robots").unwrap();
+        of["version"].clone()
+    };
+    let seen = versions(&service);
+    let (status, _) = service.ask("POST", "/api/edits", Some(&hardness("SQUAT", 3.5)));
+    assert_eq!(status, 200);
+    let (status, refused) = take("robots.csv", json!({"text": softer, "version": seen}));
+    let message = refused["error"]["message"].as_str().unwrap();
+    assert_eq!((status, &refused["error"]["code"]), (409, &json!("edit/conflict")), "{refused}");
+    assert!(
+        message.starts_with("the table robots is another by now than the file was taken for, edited by ")
+    );
+    assert_eq!(site.sqlite3("SELECT hardness FROM robots WHERE state = 'SQUAT'"), ["3.5"]);
+    let (status, _) = take("robots.csv", json!({"text": softer, "version": versions(&service)}));
+    assert_eq!(status, 200);
     // a small one that unpacks to much
     let zeros = "import base64, io, sys, zipfile
 packed = io.BytesIO()

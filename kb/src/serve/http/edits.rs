@@ -1,4 +1,4 @@
-//! Edits, and what they would change. What tests of rules gave belongs to them: a circle with `http/rules`.
+//! Edits, and what they would change.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -11,9 +11,8 @@ use base64::prelude::BASE64_STANDARD;
 use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
-use super::extract::Body;
-use super::extract::Site;
-use super::rules::{self, TestsOf};
+use super::extract::{Body, Site};
+use super::trial::{self, TestsOf};
 use crate::edit::{Close, Done, Edit, Lay, Tell, Thing, Write};
 use crate::error::Code;
 use crate::preview::{Preview, Wanted};
@@ -103,6 +102,9 @@ pub enum Wish {
         /// The same in Base64, of any file.
         #[serde(default)]
         base64: Option<String>,
+        /// The version of the table that the editor sees: if it has another one by now, the edit is refused.
+        #[serde(default)]
+        version: Option<String>,
     },
     Tell {
         /// The class, as `DOORS`.
@@ -220,7 +222,7 @@ impl Wish {
                 cells.into_iter().map(|(column, value)| (column, value.cell())).collect(),
             ),
             Self::Remove { table, key } => Edit::Remove(table, key),
-            Self::Take { table, file, text, base64 } => {
+            Self::Take { table, file, text, base64, version } => {
                 let bytes = match (text, base64) {
                     (Some(text), None) => text.into_bytes(),
                     (None, Some(coded)) => BASE64_STANDARD.decode(coded).map_err(|error| {
@@ -231,7 +233,7 @@ impl Wish {
                         return Err(Fault::new(Code::EditUsage, message));
                     }
                 };
-                Edit::Table(table, Sheet::of(Path::new(&file), bytes, UNPACKED)?)
+                Edit::Table(table, Sheet::of(Path::new(&file), bytes, UNPACKED)?, version)
             }
             Self::Tell { until: Some(_), for_seconds: Some(_), .. }
             | Self::Close { until: Some(_), for_seconds: Some(_), .. } => {
@@ -369,8 +371,8 @@ pub async fn make(site: &Site, caller: &Caller, edit: Edit, why: String) -> Answ
     let (wanted, caller) = (edit.clone(), caller.clone());
     let edited = site.edit_at_desk(move |desk| {
         let folder = desk.live.site().rule_folder();
-        let tests = rules::tried(desk, &caller, &edit)?;
-        let outcome = desk.edit(&edit, &author).map_err(|error| rules::refused(error, &folder))?;
+        let tests = trial::tried(desk, &caller, &edit)?;
+        let outcome = desk.edit(&edit, &author).map_err(|error| trial::refused(error, &folder))?;
         Ok(Edited {
             generation: outcome.generation,
             layout: desk.live.view().layout().to_owned(),
@@ -404,7 +406,7 @@ async fn with_current(site: &Site, edit: &Edit, mut fault: Fault) -> Fault {
 
 /// Makes an edit: one transaction with all that follows from it, kept in the history with who and why.
 #[utoipa::path(post, path = "/api/edits", tag = "tables", request_body = EditBody,
-    responses((status = 200, body = Edited), (status = 409, description = "the cell holds another value by now", body = Failure)))]
+    responses((status = 200, body = Edited), (status = 409, description = "the cell, the table or the file is another by now", body = Failure)))]
 pub async fn edit(site: Site, caller: Caller, Body(body): Body<EditBody>) -> Answered<Json<Edited>> {
     body.edit.roles().into_iter().try_for_each(|role| require(&caller, role))?;
     let wish = body.edit;
@@ -492,10 +494,10 @@ pub async fn preview(site: Site, caller: Caller, Body(body): Body<PreviewBody>) 
         let wanted = route.map(|(start, goal)| Wanted { start, goal, robot: body.robot.as_deref() });
         fork.preview(&edits, wanted)
     });
-    let mut preview = preview.await.map_err(|fault| rules::placed(fault, &folder))?;
+    let mut preview = preview.await.map_err(|fault| trial::placed(fault, &folder))?;
     if let Some(rules) = &mut preview.rules {
         for failure in &mut rules.failures {
-            rules::place(failure, &folder);
+            trial::place(failure, &folder);
         }
     }
     Ok(Json(preview))

@@ -14,8 +14,8 @@ use utoipa::ToSchema;
 use super::extract::{Named, Site};
 use crate::edit;
 use crate::error::{Code, Error, Result};
-use crate::knowledge::tunings;
 use crate::knowledge::{LAYOUT, generation};
+use crate::knowledge::{tables, tunings};
 use crate::serve::fault::{Answered, Fault};
 use crate::site::sheet;
 use crate::words::suggest::did_you_mean;
@@ -31,6 +31,8 @@ pub struct TablesAnswer {
 struct TableOf {
     table: String,
     columns: Vec<ColumnOf>,
+    /// Names what it holds, for the edit `take`.
+    version: String,
     /// The rows' keys, as edits name them.
     keys: Vec<String>,
     /// A value for each column.
@@ -117,7 +119,7 @@ fn tuned(tx: &mut Tx<'_>) -> Result<Vec<String>> {
 /// One of these tables as a file: `robots.csv`, `robots.xlsx`. What is in it is taken back with the edit `take`.
 #[utoipa::path(get, path = "/api/tables/{file}", tag = "tables",
     params(("file" = String, Path, description = "The table, and what the file is to be: `robots.csv`, `robots.xlsx`")),
-    responses((status = 200, body = String, content_type = "text/csv")))]
+    responses((status = 200, content((String = "text/csv"), (Vec<u8> = "application/vnd.openxmlformats-officedocument.spreadsheetml.sheet")))))]
 pub async fn file(site: Site, Named(file): Named<String>) -> Answered<Response> {
     let (name, kind) = if let Some(name) = file.strip_suffix(".csv") {
         (name.to_owned(), "text/csv; charset=utf-8")
@@ -153,9 +155,10 @@ fn table(relation: &Relation, overridden: Vec<Overridden>) -> TableOf {
         };
         rows.sort_by_key(place);
     }
-    let all_keys = crate::knowledge::tables::keys(relation);
+    let all_keys = tables::keys(relation);
     TableOf {
         table: relation.name.clone(),
+        version: tables::version(&relation.columns),
         columns: relation.columns.iter().map(|known| column(relation, known)).collect(),
         keys: rows.iter().map(|row| all_keys[*row].clone()).collect(),
         rows: rows
