@@ -1,5 +1,7 @@
 //! Where a change of shape can pay: on the rim of the free space of the easier state.
 
+use std::collections::BTreeMap;
+
 use super::cone::{Segment, cross};
 use super::graph::RouteGraph;
 use super::mesh::{EPSILON, Exit};
@@ -195,6 +197,9 @@ impl RouteGraph {
     }
 }
 
+/// From which parts of a segment one has gone on in a room, and how far one had come by changes of shape.
+type Explored = BTreeMap<RoomIndex, Vec<((f64, f64), f64)>>;
+
 /// What lies straight beyond a segment.
 struct Sweep<'g> {
     graph: &'g RouteGraph,
@@ -222,16 +227,21 @@ impl<'g> Sweep<'g> {
     fn deep(&self, room: RoomIndex) -> Vec<Segment> {
         let mut parts = Vec::new();
         let length = self.segment.length();
-        self.find(&mut vec![room], (0.0, length), 0.0, &mut parts);
+        self.go_on(room, ((0.0, length), 0.0), &mut Explored::new(), &mut parts);
         let at = |along: f64| self.segment.at(along / length);
         joined(parts).into_iter().map(|(from, to)| Segment { a: at(from), b: at(to) }).collect()
     }
 
-    /// The same, of a part of the segment, from the last of the rooms that one has come through; `highest` is how far one
-    /// has come by other changes of shape.
-    fn find(&self, through: &mut Vec<RoomIndex>, part: (f64, f64), highest: f64, deep: &mut Vec<(f64, f64)>) {
+    /// The same, of a part of the segment, from a room that one has come into; `highest` is how far one has come by other changes
+    /// of shape.
+    fn find(
+        &self,
+        room: RoomIndex,
+        (part, highest): ((f64, f64), f64),
+        explored: &mut Explored,
+        deep: &mut Vec<(f64, f64)>,
+    ) {
         let graph = self.graph;
-        let Some(&room) = through.last() else { return };
         let outline = &graph[room].outline;
         let top = outline.corners().map(|corner| self.seen(corner).y).fold(highest, f64::max);
         let mut is_all = false;
@@ -262,7 +272,7 @@ impl<'g> Sweep<'g> {
             let (a, b) = if a.x < b.x { (a, b) } else { (b, a) };
             let is_above = cross(a, b, inside) < 0.0 && a.y.max(b.y) > -EPSILON;
             if let Some(part) = overlap((a.x, b.x), part).filter(|_| is_above) {
-                self.go_on(through, exit.to, (part, top), deep);
+                self.go_on(exit.to, (part, top), explored, deep);
             }
         }
         if self.by == Further::Doors {
@@ -279,23 +289,27 @@ impl<'g> Sweep<'g> {
             let (from, to) =
                 along.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
             if let Some(part) = overlap((from, to), part) {
-                self.go_on(through, exit.to, (part, top), deep);
+                self.go_on(exit.to, (part, top), explored, deep);
             }
         }
     }
 
-    /// Goes on in a room, but for one that one has come through: of slivers, roundings say either side of a door.
+    /// Goes on in a room, from those parts from which that was not done yet by as few changes of shape: from the others nothing
+    /// new is found, and there are more ways through many rooms than can be followed. One that comes into a room again is among
+    /// them: its part is no wider, and it has come no less far.
     fn go_on(
         &self,
-        through: &mut Vec<RoomIndex>,
         to: RoomIndex,
         (part, top): ((f64, f64), f64),
+        explored: &mut Explored,
         deep: &mut Vec<(f64, f64)>,
     ) {
-        if !through.contains(&to) {
-            through.push(to);
-            self.find(through, part, top, deep);
-            through.pop();
+        let known = explored.entry(to).or_default();
+        let before = known.iter().filter(|(_, highest)| *highest <= top).map(|(part, _)| *part);
+        let rest = rest_of(part, before.collect());
+        known.push((part, top));
+        for part in rest {
+            self.find(to, (part, top), explored, deep);
         }
     }
 }
@@ -304,6 +318,18 @@ impl<'g> Sweep<'g> {
 fn overlap(one: (f64, f64), two: (f64, f64)) -> Option<(f64, f64)> {
     let (from, to) = (one.0.max(two.0), one.1.min(two.1));
     (to - from > EPSILON).then_some((from, to))
+}
+
+/// What is left of a stretch without some others.
+fn rest_of((mut from, to): (f64, f64), mut others: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
+    others.sort_by(|one, two| one.0.total_cmp(&two.0));
+    let mut rest = Vec::new();
+    for (begins, ends) in others {
+        rest.extend(overlap((from, begins), (from, to)));
+        from = from.max(ends);
+    }
+    rest.extend(overlap((from, to), (from, to)));
+    rest
 }
 
 /// Whether all of some stretches of a closed line of a length lies no farther than [`DEEP_M`] from some others, with nothing

@@ -89,3 +89,25 @@ fn mir_maze() {
 fn stage_lse_arena() {
     leads_across("data/stage/lse_arena.yaml", [0.6, 0.6], [3.4, 2.4]);
 }
+
+/// A body that is slim at eight facings, on a floor that was cut into many small rooms by an area with another hardness: there are
+/// more ways through them than can be followed, and whoever asked waited until memory was used up.
+#[test]
+fn a_body_of_eight_facings_is_led_past_an_area_of_its_own_hardness() {
+    let Some(map) = shared("data/nav2/depot.yaml") else { return };
+    let site = TestSite::empty();
+    let folder = site.path().join("depot");
+    let depot = folder.to_str().unwrap();
+    let adit = |arguments: &[&str]| {
+        let ran =
+            std::process::Command::new("timeout").arg("60").arg(adit_tests::adit()).args(arguments).output();
+        adit_tests::Ran::new(&ran.unwrap()).expecting(0).stdout
+    };
+    adit(&["new", depot, "--map", map.to_str().unwrap(), "--robot", "quadruped"]);
+    adit(&["build", depot]);
+    let without = adit(&["route", depot, "2,2", "27,13"]);
+    assert!(without.contains("hardness 27.484"), "{without}");
+    adit(&["lay", depot, "area", "wet", "10,1 14,5", "--with", "hardness_factor=2"]);
+    assert_eq!(adit(&["route", depot, "2,2", "27,13"]), without, "the way does not lead through the area");
+    adit(&["route", depot, "2,2", "15.3,8"]);
+}
