@@ -165,12 +165,15 @@ impl State {
         match &subject.property {
             Some(property) if found.is_empty() => {
                 let message = format!(
-                    "no rule concluded `{property}` of {}: it was told, is unknown, or is no property",
+                    "no rule gives {} a `{property}`: it is unknown, was told, or is no property",
                     subject.name
                 );
-                let help = did_you_mean(property, properties.iter().copied()).or_else(|| {
-                    (!properties.is_empty()).then(|| format!("concluded are {}", properties.join(", ")))
-                });
+                let is_known = properties.contains(&property.as_str());
+                let help =
+                    did_you_mean(property, properties.iter().copied()).filter(|_| !is_known).or_else(|| {
+                        (!is_known && !properties.is_empty())
+                            .then(|| format!("concluded are {}", properties.join(", ")))
+                    });
                 Err(Error::said(Code::WhyNotConcluded, message, help))
             }
             _ => Ok((found, facts)),

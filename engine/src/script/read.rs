@@ -176,7 +176,10 @@ fn syntax_message(error: &ParseErrorType, about: (&str, &str)) -> String {
             "each" | "some" | "least" | "most" | "none" => {
                 format!("`{before}` belongs in a rule, which begins with `rule \"what it says\"`")
             }
-            _ => "a `;` belongs before this, to part it from the statement before".to_owned(),
+            _ if about == ("", "") => "the file ends in the middle of a rule".to_owned(),
+            _ => slip(about).unwrap_or_else(|| {
+                "a `;` belongs before this, to part it from the statement before".to_owned()
+            }),
         },
         ParseErrorType::MissingToken(token, _) if token == "," => {
             "a `,` belongs before this, or the bracket before it is not closed".to_owned()

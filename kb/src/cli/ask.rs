@@ -58,14 +58,19 @@ pub fn run(args: &AskArgs) -> Result<bool> {
         json(&asked)?;
         return Ok(is_known);
     }
-    show(&asked);
+    show(&asked, &said);
     Ok(is_known)
 }
 
-fn show(asked: &Asked) {
+fn show(asked: &Asked, said: &[Said]) {
+    let not_known: Vec<&str> =
+        said.iter().filter(|said| said.value.is_none()).map(|said| said.what.as_str()).collect();
     match (asked.status, &asked.question) {
         ("known", _) => asked.why.iter().for_each(|why| line(why)),
         (_, Some(question)) => line(&format!("{} is not settled: {}", asked.what, question.text)),
+        _ if !not_known.is_empty() => {
+            line(&format!("{} is unknown as long as this is: {}", asked.what, not_known.join(", ")));
+        }
         _ => line(&format!("{} is unknown, and nothing that can be asked would settle it", asked.what)),
     }
     if asked.weighed > 0 {

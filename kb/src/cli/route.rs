@@ -56,7 +56,11 @@ pub fn run(args: &RouteArgs) -> Result<u8> {
     let (start, robot) = (&args.way.start, args.way.robot.as_deref());
     // another moment alone needs no names of the last build
     let answer = if errand == (Errand { at: errand.at.clone(), ..Errand::default() }) {
-        knowledge.route_to_nearest(start, &goals, robot)?
+        let answer = knowledge.route_to_nearest(start, &goals, robot)?;
+        if errand.at.is_none() {
+            knowledge.rules_not_built()?.iter().for_each(|note| remark(&format!("note: {note}")));
+        }
+        answer
     } else {
         knowledge.route_on_errand(&errand, (start, &goals), robot)?
     };

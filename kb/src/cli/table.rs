@@ -49,6 +49,11 @@ pub fn run(args: &TableArgs) -> Result<()> {
         line(sheet::text(&table)?.trim_end());
         return Ok(());
     };
+    // a table may be written into the file from which it comes
+    let is_its_own = file.file_stem().is_some_and(|stem| stem.eq_ignore_ascii_case(&args.table));
+    if !is_its_own {
+        knowledge.spare_own(file)?;
+    }
     whole::write(file, &sheet::written(file, &table)?)?;
     if args.site.json {
         return json(&serde_json::json!({"file": file, "rows": rows}));

@@ -112,7 +112,7 @@ impl KnowledgeBase {
         let work = |tx: &mut Tx<'_>| -> Result<(Done, Report)> {
             let built = if edit.files(tx)?.is_empty() { tx.rules()? } else { Vec::new() };
             let (done, mut report) = Memory::edit(tx, &site, &inputs, (edit, author), progress)?;
-            report.notes.extend(not_built(&built, &inputs.rules));
+            report.notes.extend(not_built(&built, &inputs.rules, "what follows from them is included"));
             report.notes.extend(edit.remarks(tx, &done)?);
             Ok((done, report))
         };
@@ -241,6 +241,17 @@ impl KnowledgeBase {
         let tell = |tx: &mut Tx<'_>, rules: &RuleBase| errand.tell(tx, (&then, rules), robot);
         let answer = then.rehearsed(tell, |tx| then.answer(tx, (start, goals), robot, errand.ends_in()))?;
         Ok(errand.explained(answer))
+    }
+
+    /// A word about rules that were edited since the last build, by which routes are found.
+    pub fn rules_not_built(&self) -> Result<Option<String>> {
+        let built = Store::open_read_only(self.database())?.snapshot(|tx| tx.rules())?;
+        Ok(match self.rule_base() {
+            Ok(rules) => not_built(&built, &rules, "a route is by those, until `adit build` takes these"),
+            Err(_) => Some(
+                "the rules are wrong as they are, as `adit check` says; a route is by those of the last build".to_owned(),
+            ),
+        })
     }
 
     /// Does `work` on what would be derived now, after something is told, and takes all of it back.
@@ -404,8 +415,8 @@ fn kept(tx: &mut Tx<'_>, robot: &str, start: &str, goals: &[String]) -> Result<O
 /// So many rules are named that differ from those of the last build.
 const NAMED: usize = 3;
 
-/// A word about rules that differ from those with which the site was built: what follows from them is done with the next edit.
-fn not_built(built: &[Built], rules: &RuleBase) -> Option<String> {
+/// A word about rules that differ from those with which the site was built, and what becomes of them.
+fn not_built(built: &[Built], rules: &RuleBase, then: &str) -> Option<String> {
     let is_built =
         |rule: &&Rule| built.iter().any(|of| of.name == rule.name() && of.version == rule.version());
     let other = rules.rules().iter().filter(|rule| !is_built(rule));
@@ -420,5 +431,5 @@ fn not_built(built: &[Built], rules: &RuleBase) -> Option<String> {
     named.truncate(NAMED);
     named.extend((more > 0).then(|| format!("and {more} more")));
     let named = named.join(", ");
-    Some(format!("rules differ from those of the last build; what follows from them is included: {named}"))
+    Some(format!("rules differ from those of the last build; {then}: {named}"))
 }

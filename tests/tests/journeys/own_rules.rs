@@ -310,7 +310,17 @@ fn an_edit_says_which_rules_were_edited_since_the_build_and_count_with_it() {
         .built();
     let tune = |value: &str| site.adit("tune", &["robots", "SQUAT", "hardness", value]).expecting(0).stderr;
     assert_eq!(tune("5"), "");
+    let route = || site.adit("route", &["home", "window"]).expecting(0).stderr;
+    assert_eq!(route(), "");
     let rule = "revise \"draughty\"\n    each room in ROOMS where room.y0 < 4.0\n    set room.hardness by * 2 level 10\n";
+    site.write("rules/draughty.rhai", rule);
+    let by_those = route();
+    assert!(
+        by_those.contains("a route is by those, until `adit build` takes these: \"draughty\""),
+        "{by_those}"
+    );
+    site.write("rules/draughty.rhai", &rule.replace("each", "ech"));
+    assert!(route().contains("the rules are wrong as they are"));
     site.write("rules/draughty.rhai", rule);
     let edited = tune("6");
     assert!(
@@ -318,6 +328,7 @@ fn an_edit_says_which_rules_were_edited_since_the_build_and_count_with_it() {
         "{edited}"
     );
     assert_eq!(tune("7"), "");
+    assert_eq!(route(), "");
     std::fs::remove_file(site.path().join("rules/draughty.rhai")).unwrap();
     let gone = tune("8");
     assert!(gone.contains("\"draughty\", which is gone"), "{gone}");

@@ -110,6 +110,14 @@ book.save('wide.xlsx')";
     site.adit("table", &["orders", "--to", &at(&site, "orders.ods")])
         .expecting(2)
         .complains(&["neither .csv nor .xlsx"]);
+    // of the site's own files it goes into that of the table alone
+    let of_another = at(&site, "tables/products.csv");
+    let products = std::fs::read(&of_another).unwrap();
+    site.adit("table", &["orders", "--to", &of_another])
+        .expecting(2)
+        .complains(&["file/own", "products.csv"]);
+    assert_eq!(std::fs::read(&of_another).unwrap(), products);
+    site.adit("table", &["orders", "--to", &at(&site, "tables/orders.csv")]).expect_status(0);
     site.adit("table", &["ordres"]).expecting(2).complains(&["ordres"]);
     site.adit("table", &["conclusions", "--from", &at(&site, "orders.csv")])
         .expecting(2)
