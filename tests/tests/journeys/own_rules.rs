@@ -319,7 +319,7 @@ fn an_edit_says_which_rules_were_edited_since_the_build_and_count_with_it() {
         by_those.contains("a route is by those, until `adit build` takes these: \"draughty\""),
         "{by_those}"
     );
-    site.write("rules/draughty.rhai", &rule.replace("each", "ech"));
+    site.write("rules/draughty.rhai", rule.replace("each", "ech"));
     assert!(route().contains("the rules are wrong as they are"));
     site.write("rules/draughty.rhai", rule);
     let edited = tune("6");
