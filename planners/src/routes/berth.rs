@@ -67,7 +67,16 @@ impl<'g> Wide<'g> {
             let is_between = stops && is_next && length(&legs[first..=last]) > SNAP_M;
             let to =
                 if is_between { graph.roomier_stop(&legs[last], &legs[last + 1]) } else { legs[last].to };
-            runs.push(Run::new(graph, legs, first..last + 1, [from, to]));
+            let run = Run::new(graph, legs, first..last + 1, [from, to]);
+            // what bends where no wall is, since ground has another price there, stays where it bends
+            let (run, last, to) = match run.bend_off_walls(legs) {
+                Some(bend) => {
+                    let to = legs[bend].to;
+                    (Run::new(graph, legs, first..bend + 1, [from, to]), bend, to)
+                }
+                None => (run, last, to),
+            };
+            runs.push(run);
             (first, from) = (last + 1, to);
         }
         Some(Self { graph, runs, allowance })

@@ -111,3 +111,24 @@ fn a_body_of_eight_facings_is_led_past_an_area_of_its_own_hardness() {
     assert_eq!(adit(&["route", depot, "2,2", "27,13"]), without, "the way does not lead through the area");
     adit(&["route", depot, "2,2", "15.3,8"]);
 }
+
+/// A way that bends at an area, where no wall is, kept off no wall from its beginning to its end.
+#[test]
+fn a_way_past_an_area_of_its_own_hardness_keeps_off_walls_elsewhere() {
+    let Some(map) = shared("data/nav2/depot.yaml") else { return };
+    let site = TestSite::empty();
+    let folder = site.path().join("depot");
+    let depot = folder.to_str().unwrap();
+    let adit = |arguments: &[&str]| {
+        let ran = std::process::Command::new(adit_tests::adit()).args(arguments).output();
+        adit_tests::Ran::new(&ran.unwrap()).expecting(0).stdout
+    };
+    adit(&["new", depot, "--map", map.to_str().unwrap(), "--robot", "cart"]);
+    adit(&["build", depot]);
+    adit(&["lay", depot, "area", "wet", "10,1 14,5", "--with", "hardness_factor=2"]);
+    let route: serde_json::Value =
+        serde_json::from_str(&adit(&["route", depot, "2,2", "28,3", "--json"])).unwrap();
+    let clearances = route["waypoints"].as_array().unwrap().iter().filter_map(|at| at["clearance"].as_f64());
+    let least = clearances.fold(f64::INFINITY, f64::min);
+    assert!(least > 0.049, "{least}: {route}");
+}

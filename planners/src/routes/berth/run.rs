@@ -89,6 +89,20 @@ impl Run {
         run
     }
 
+    /// The first leg at whose end the way bends, and about no corner of a wall.
+    pub fn bend_off_walls(&self, legs: &[Leg]) -> Option<usize> {
+        // tangents to an arc about a corner meet farther from it than the arc, by less than half of its radius
+        let is_about = |corner: &Corner, at: Point| {
+            corner.centre.distance(at) <= 1.5 * corner.least + corner.berth + SNAP_M
+        };
+        let is_off = |leg: &usize| {
+            let (leg, next) = (&legs[*leg], &legs[*leg + 1]);
+            turns(leg.from, leg.to, next.to) && !self.corners.iter().any(|corner| is_about(corner, leg.to))
+        };
+        let is_berthed = !self.corners.is_empty();
+        (self.legs.start..self.legs.end - 1).filter(|_| is_berthed).find(is_off)
+    }
+
     /// The corners that the way comes near to, or may when it keeps off others.
     fn corners_beside(&self, graph: &RouteGraph, legs: &[Leg], berth: f64) -> Vec<Corner> {
         let radius = graph[legs[0].room].radius.unwrap_or(0.0);
