@@ -37,7 +37,8 @@ function shown({ status, value, why, what, question, weighed }) {
     const asked = form({ class: 'line-form' }, () => reply(input.value.trim()), el('label', {}, `${question.text} `, input), el('button', { type: 'submit', class: 'strong', text: 'Answer' }), button('I do not know', () => reply(null)));
     return [...told, asked];
   }
-  const found = status === 'known' ? [el('p', {}, el('b', { text: `${what} is ${inWords(value)}` })), el('ul', { class: 'plain' }, ...why.map((text) => el('li', { text })))] : [el('p', { text: `${what} is unknown, and nothing that can be asked would settle it.` })];
+  const isOpen = answers.some((answer) => answer.value === null);
+  const found = status === 'known' ? [el('p', {}, el('b', { text: `${what} is ${inWords(value)}` })), el('ul', { class: 'plain' }, ...why.map((text) => el('li', { text })))] : [el('p', { text: isOpen ? `${what} is unknown as long as that is not known.` : `${what} is unknown, and nothing that can be asked would settle it.` })];
   return [...told, ...found, el('p', { class: 'hint', text: `Rules weighed ${weighed} objects for it.` })];
 }
 

@@ -169,11 +169,10 @@ impl State {
                     subject.name
                 );
                 let is_known = properties.contains(&property.as_str());
-                let help =
-                    did_you_mean(property, properties.iter().copied()).filter(|_| !is_known).or_else(|| {
-                        (!is_known && !properties.is_empty())
-                            .then(|| format!("concluded are {}", properties.join(", ")))
-                    });
+                let help = did_you_mean(property, properties.iter().copied()).or_else(|| {
+                    (!is_known && !properties.is_empty())
+                        .then(|| format!("concluded are {}", properties.join(", ")))
+                });
                 Err(Error::said(Code::WhyNotConcluded, message, help))
             }
             _ => Ok((found, facts)),

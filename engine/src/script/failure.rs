@@ -46,7 +46,7 @@ fn not_there(signature: &str) -> String {
     let types = types.strip_suffix(')').unwrap_or(types);
     let kinds: Vec<&str> = types.split(", ").filter(|of| !of.is_empty()).map(kind).collect();
     if BITS.contains(&name) && kinds.iter().all(|kind| *kind == "a number") {
-        return format!("`{name}` takes whole numbers alone: it is of their bits");
+        return format!("`{name}` takes whole numbers alone: it works on their bits");
     }
     match kinds.split_last() {
         None => format!("there is no function `{name}` that is given nothing"),

@@ -13,7 +13,10 @@ pub fn listed<'a>(what: &str, known: impl Iterator<Item = &'a str>) -> Option<St
 
 /// A help text, where a known name is near enough.
 pub fn did_you_mean<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> Option<String> {
+    let known: Vec<&str> = known.take(5_000).collect();
     // who says a name rightly did not mean another one
-    let known: Vec<&str> = known.take(5_000).filter(|known| *known != name).collect();
+    if known.contains(&name) {
+        return None;
+    }
     nearest(name, &known).map(|meant| format!("did you mean `{meant}`?"))
 }

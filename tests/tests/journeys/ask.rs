@@ -80,6 +80,11 @@ fn what_was_answered_beforehand_is_not_asked_and_what_cannot_be_is_asked_again()
     let said = typed(&site, &beforehand, "no\nmuch\n3\n").expecting(1);
     assert!(!said.stdout.contains("Does car 1 start"), "{}", said.stdout);
     assert!(said.stdout.contains("nothing that can be asked would settle it"), "{}", said.stdout);
+    let unknown = typed(&site, &["cars.car 1.shop"], &"\n".repeat(9)).expecting(1).stdout;
+    assert!(
+        unknown.contains("cars.car 1.shop is unknown as long as this is: cars.car 1.starts"),
+        "{unknown}"
+    );
     let open = typed(&site, &["cars.car 1.shop"], "no\n").expecting(1).stdout;
     assert!(open.contains("cars.car 1.shop is not settled: Do the lights of car 1 burn?"), "{open}");
     let json = typed(&site, &["cars.car 1.shop", "--json"], "").expecting(1).json();

@@ -25,7 +25,7 @@ async fn a_value_is_found_out_question_by_question() {
     browser.says("#ask-said", "Which colour does order 2 get?").await;
     browser.screenshot("ask").await;
     browser.press("#ask-said", "I do not know").await;
-    browser.says("#ask-said", "nothing that can be asked would settle it").await;
+    browser.says("#ask-said", "orders.2.wrapping is unknown as long as that is not known").await;
     browser.press("#facts", "Find out").await;
     browser.type_into("#ask-answer", "no").await;
     browser.press("#ask-said", "Answer").await;

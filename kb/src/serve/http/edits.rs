@@ -27,7 +27,7 @@ const PATIENCE_MS: u64 = 10_000;
 /// Edits that may be previewed or made together.
 const TOGETHER: usize = 1_000;
 
-/// Files among them.
+/// Files that may be among them: what each unpacks to is held in memory.
 const FILES: usize = 8;
 
 /// Bytes that a file unpacks to at most.
