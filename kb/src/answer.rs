@@ -31,9 +31,9 @@ pub enum Status {
     SameRoom,
     /// No route; the answer says why.
     NoRoute,
-    /// The start is no place, room or point of the map.
+    /// The start is no place, space, room or point of the map.
     UnknownStart,
-    /// The goal is no place, room or point of the map.
+    /// The goal is no place, space, room or point of the map.
     UnknownGoal,
 }
 

@@ -63,7 +63,7 @@ pub enum Verb {
     New(new::NewArgs),
     /// Map, facts, rules, routes: into the site's database
     Build(build::BuildArgs),
-    /// The action sequence from START to GOAL: a place, a room, or `x,y` in metres
+    /// The action sequence from START to GOAL: a place, a space, a room, or `x,y` in metres
     Route(route::RouteArgs),
     /// Edit one cell of a table as a transaction, and show what changes
     Tune(tune::TuneArgs),

@@ -35,6 +35,7 @@ use layers::Layer;
 
 use crate::error;
 use crate::knowledge::told::Whom;
+use crate::words::suggest::{did_you_mean, listed};
 
 pub use building::{Building, why_one_way};
 pub use layers::rect_of;
@@ -335,7 +336,7 @@ impl SiteGraph {
         robots
     }
 
-    /// What a name means: a place, a room, or `x,y`.
+    /// What a name means: a place, a space, a room, `x,y`, a space (where it is widest), or a room as answers call it: `room d`.
     pub fn end(&self, name: &str) -> Option<End> {
         if let Some(index) = self.index.place_by_name.get(name) {
             return Some(End::Place(*index));
@@ -343,12 +344,26 @@ impl SiteGraph {
         if let Some(index) = self.index.room_by_name.get(name) {
             return Some(End::Room(*index));
         }
-        let (x, y) = name.split_once(',')?;
-        let (x, y): (f64, f64) = (x.trim().parse().ok()?, y.trim().parse().ok()?);
-        (x.is_finite() && y.is_finite()).then(|| End::Point(Point::new(x, y)))
+        if let Some(point) = point_of(name) {
+            return Some(End::Point(point));
+        }
+        if let Some(space) = self.building.space_named(name) {
+            return Some(End::Point(Point::new(space.x, space.y)));
+        }
+        self.index.room_by_name.get(name.strip_prefix("room ")?).copied().map(End::Room)
     }
 
-    /// All names that an end may have, places first.
+    /// What is said of a name that no end has.
+    pub fn no_end(&self, name: &str) -> (String, Option<String>) {
+        let spaces = self.building.spaces.iter().filter_map(|space| self.building.space(space.space));
+        let spaces: Vec<String> = spaces.collect();
+        let known = self.names().chain(spaces.iter().map(String::as_str));
+        let places = || listed("places", self.places.iter().map(|place| place.place.as_str()));
+        let message = format!("`{name}` is no place, no space, no room and no point `x,y`");
+        (message, did_you_mean(name, known).or_else(places))
+    }
+
+    /// The names of all places and rooms, places first.
     pub fn names(&self) -> impl Iterator<Item = &str> {
         self.places
             .iter()
@@ -392,6 +407,13 @@ impl ops::Index<DoorIndex> for SiteGraph {
     fn index(&self, door: DoorIndex) -> &Door {
         &self.doors[door.index()]
     }
+}
+
+/// The point that `x,y` is.
+fn point_of(text: &str) -> Option<Point> {
+    let (x, y) = text.split_once(',')?;
+    let (x, y): (f64, f64) = (x.trim().parse().ok()?, y.trim().parse().ok()?);
+    (x.is_finite() && y.is_finite()).then(|| Point::new(x, y))
 }
 
 /// Whether a room can be walked in: its hardness is known and it is passable, as with doors.

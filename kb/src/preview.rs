@@ -29,7 +29,7 @@ pub use routes::{PlaceRoute, PlaceRoutes};
 /// A route that is asked for beside a preview.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wanted<'a> {
-    /// From where: a place, a room or `x,y`.
+    /// From where: a place, a space, a room or `x,y`.
     pub start: &'a str,
     /// Where to.
     pub goal: &'a str,

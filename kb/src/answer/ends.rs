@@ -10,7 +10,7 @@ use super::{Answer, Status};
 use crate::error::{Code, Error, Finding, Nearest, Result};
 use crate::graph::End;
 use crate::words::number::number;
-use crate::words::suggest::{did_you_mean, listed};
+use crate::words::suggest::did_you_mean;
 
 /// Start and goals of a question.
 pub(crate) struct Ends {
@@ -32,10 +32,9 @@ impl Basis<'_> {
         let mut named = Vec::with_capacity(names.len() + 1);
         for (index, name) in std::iter::once(&answer.start).chain(names).enumerate() {
             let Some(end) = graph.end(name) else {
-                let places = graph.places.iter().map(|place| place.place.as_str());
-                let help = did_you_mean(name, graph.names()).or_else(|| listed("places", places));
-                let meant = help.map_or(String::new(), |help| format!("; {help}"));
-                answer.reason = Some(format!("`{name}` is no place, no room and no point `x,y`{meant}"));
+                let (message, help) = graph.no_end(name);
+                let help = help.map_or(String::new(), |help| format!("; {help}"));
+                answer.reason = Some(message + help.as_str());
                 answer.status = if index == 0 { Status::UnknownStart } else { Status::UnknownGoal };
                 return Ok(None);
             };

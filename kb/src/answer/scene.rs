@@ -25,8 +25,13 @@ impl KnowledgeBase {
         if let Some(answer) = answer {
             if !matches!(answer.status, Status::Ok | Status::SameRoom) {
                 let why = answer.reason.unwrap_or_default();
-                let message = format!("no route from {} to {}: {why}", answer.start, answer.goal);
-                return Err(Error::said(Code::DrawNoRoute, message, None));
+                let (code, message) = if let Some(unknown) = answer.status.code() {
+                    (unknown, why)
+                } else {
+                    let message = format!("no route from {} to {}: {why}", answer.start, answer.goal);
+                    (Code::DrawNoRoute, message)
+                };
+                return Err(Error::said(code, message, None));
             }
             scene.route = Some(self.drawn(&answer)?);
         }

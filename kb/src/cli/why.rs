@@ -16,7 +16,7 @@ pub struct WhyArgs {
     #[command(flatten)]
     pub site: SiteArgs,
     /// What: `door 7`, `room d`, `doors.7`, `doors.7.hardness`; `mission 3`: why the robot stopped (of a database of `adit
-    /// simulate --db` instead of a site its number alone); with GOAL, where a route starts: a place, a room or `x,y`
+    /// simulate --db` instead of a site its number alone); with GOAL, where a route starts: a place, a space, a room or `x,y`
     #[arg(allow_hyphen_values = true)]
     pub what: String,
     /// Where the route leads: why it does what it does, stretch by stretch

@@ -256,13 +256,13 @@ codes! {
     RouteSolid = "route/solid", BAD_REQUEST;
     /// The site has no robot yet; build it.
     RouteUnbuilt = "route/unbuilt", BAD_REQUEST;
-    /// The name is no place, no room and no point.
+    /// The name is no place, no space, no room and no point.
     RouteUnknown = "route/unknown", NOT_FOUND;
-    /// The goal is no place, no room and no point.
+    /// The goal is no place, no space, no room and no point.
     RouteUnknownGoal = "route/unknown-goal", NOT_FOUND;
     /// There is no such robot.
     RouteUnknownRobot = "route/unknown-robot", NOT_FOUND;
-    /// The start is no place, no room and no point.
+    /// The start is no place, no space, no room and no point.
     RouteUnknownStart = "route/unknown-start", NOT_FOUND;
     /// No room is one of this state of the robot.
     RouteUnknownState = "route/unknown-state", NOT_FOUND;
@@ -554,13 +554,13 @@ impl From<&adit_db::Error> for Code {
         use adit_db::Error;
         match error {
             Error::Refused { .. }
-            | Error::Conflict { .. }
             | Error::UnknownTable(_)
             | Error::UnknownColumn { .. }
             | Error::UnknownKey { .. }
             | Error::AmbiguousKey { .. }
             | Error::NotEditable(_)
             | Error::NotANumber { .. } => Self::DatabaseRefused,
+            Error::Conflict { .. } => Self::EditConflict,
             Error::Query(_) | Error::Deadline(_) => Self::SqlRefused,
             Error::Locked(_) => Self::DatabaseLocked,
             Error::Postgres(failure) => Self::from(failure),

@@ -16,7 +16,6 @@ use crate::state::tunable::{Lever, Side, least};
 use crate::why::contrast::same_way::SameWay;
 use crate::why::contrast::{Choice, Found, Routes, Turn};
 use crate::why::probe::Prober;
-use crate::words::suggest::did_you_mean;
 pub use beyond::Beyond;
 
 /// How firm a route is.
@@ -118,8 +117,8 @@ impl State {
     /// What a name means; an error that names it where it means nothing.
     pub(crate) fn end(&self, name: &str) -> Result<crate::graph::End> {
         self.graph().end(name).ok_or_else(|| {
-            let message = format!("`{name}` is no place, no room and no point `x,y`");
-            Error::said(Code::RouteUnknown, message, did_you_mean(name, self.graph().names()))
+            let (message, help) = self.graph().no_end(name);
+            Error::said(Code::RouteUnknown, message, help)
         })
     }
 }

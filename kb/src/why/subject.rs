@@ -18,7 +18,13 @@ pub struct Subject {
 
 impl Subject {
     /// Finds out what a text means; an object that is not there is an error.
+    ///
+    /// What the building has a name for comes first, as wherever a name is asked for: `room 1` is the space of that name,
+    /// and not the first piece into which the floor is cut.
     pub fn find(fork: &State, text: &str) -> Result<Self> {
+        if let Some(found) = Self::called(fork, text.trim()) {
+            return Ok(found);
+        }
         if let Some((kind, name)) = text.trim().split_once(' ')
             && let Some(class) =
                 ["doors", "rooms", "doorways", "spaces"].into_iter().find(|class| is_called(class, kind))
@@ -34,9 +40,6 @@ impl Subject {
             if let Some(found) = found {
                 return Ok(Self { name: text.trim().to_owned(), ..found });
             }
-        }
-        if let Some(found) = Self::called(fork, text.trim()) {
-            return Ok(found);
         }
         let Some((class, rest)) = text.trim().split_once('.') else {
             let message = format!("`{text}` names no object");

@@ -175,3 +175,29 @@ fn why_not_names_by_how_much_each_state_fails() {
         "{deciding:#?}"
     );
 }
+
+#[test]
+fn a_name_that_the_building_has_means_the_same_wherever_one_is_asked_for() {
+    let site = TestSite::example("clinic").built();
+    // cell 25 of the floor is another room, `room y`
+    let why = site.adit("why", &["room 25"]).expecting(0).stdout;
+    assert!(why.starts_with("room 25 kind is room"), "{why}");
+    let closed = site.adit("close", &["room 25", "--dry-run"]).expecting(0).stdout;
+    assert!(closed.starts_with("would be: room 25 is closed"), "{closed}");
+    let route = site.adit("route", &["room 25", "corridor 15", "--json"]).expecting(0).json();
+    let ends = route["waypoints"].as_array().unwrap();
+    let at = |end: &serde_json::Value| ["x", "y"].map(|axis| end[axis].as_f64().unwrap());
+    for (end, space) in [&ends[0], &ends[ends.len() - 1]].into_iter().zip(["room 25", "corridor 15"]) {
+        let widest = site.sqlite3(&format!("SELECT x, y FROM spaces WHERE name = '{space}'")).concat();
+        let widest: Vec<f64> = widest.split('|').map(|number| number.parse().unwrap()).collect();
+        assert!(at(end).iter().zip(widest).all(|(one, other)| (one - other).abs() < 1e-9), "{end}");
+    }
+    // a room as answers call it
+    let from_room = site.adit("route", &["room y", "lobby"]).expecting(0).stdout;
+    assert!(from_room.starts_with("room y to lobby"), "{from_room}");
+    let unknown = "`roon 25` is no place, no space, no room and no point `x,y`; did you mean `room 25`?";
+    site.adit("route", &["roon 25", "lobby"]).expecting(2).complains(&[unknown]);
+    let picture = site.path().join("x.svg");
+    let draw = ["-o", picture.to_str().unwrap(), "--route", "roon 25", "lobby"];
+    site.adit("draw", &draw).expecting(2).complains(&[unknown]);
+}

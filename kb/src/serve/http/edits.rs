@@ -456,7 +456,7 @@ pub async fn blocked(site: Site, caller: Caller, Body(body): Body<BlockedBody>) 
 pub struct PreviewBody {
     /// The edits, in this order.
     edits: Vec<Wish>,
-    /// A route to show beside it: from a place, a room or `x,y`.
+    /// A route to show beside it: from a place, a space, a room or `x,y`.
     #[serde(default)]
     start: Option<String>,
     #[serde(default)]

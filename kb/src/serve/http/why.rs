@@ -37,7 +37,7 @@ pub enum Reasons {
 /// best route does what it does: what keeps easier states out, what the best way without costs, and up to where the choice holds.
 #[utoipa::path(get, path = "/api/why", tag = "reasons",
     params(("what" = Option<String>, Query, description = "`door 7`, `room d`, `doors.7.hardness`"),
-           ("start" = Option<String>, Query, description = "Of a route: a place, a room or `x,y`"), ("goal" = Option<String>, Query, description = "Of a route: a place, a room or `x,y`"),
+           ("start" = Option<String>, Query, description = "Of a route: a place, a space, a room or `x,y`"), ("goal" = Option<String>, Query, description = "Of a route: a place, a space, a room or `x,y`"),
            ("at" = Option<String>, Query, description = "Only its stretches at this space, doorway, area, named door or point"),
            ("robot" = Option<String>, Query, description = "Whose route")),
     responses((status = 200, body = Reasons)))]
