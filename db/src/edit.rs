@@ -179,6 +179,17 @@ impl Tx<'_> {
         self.run(async |connection| remove_row(connection, table, key, author).await)
     }
 
+    /// The rows of a table as the history keeps them, in the order in which [`Tx::read_table`] reads them where it has a key.
+    pub fn rows_as_kept(&mut self, table: &str) -> Result<Vec<Cell>> {
+        self.run(async |connection| {
+            let table = Table::editable(connection, table).await?;
+            let (name, keys) = (identifier(table.name), table.keys().join(", "));
+            let sql = format!("SELECT {} FROM {name} ORDER BY {keys}", table.json());
+            let rows = dynamic::fetch(connection, sql, &[]).await?;
+            rows.iter().map(|row| Cell::of(row, 0)).collect()
+        })
+    }
+
     /// Takes one edit of the history back, unless its row has changed since.
     pub fn undo(&mut self, id: i64, author: &Author) -> Result<Edited> {
         self.run(async |connection| undo(connection, id, author).await)

@@ -134,6 +134,20 @@ pub(crate) async fn mark_undone(connection: &mut SqliteConnection, id: i64, by: 
     Ok(())
 }
 
+/// Marks the edits of a row that came after one, and whose row went when that was taken back: they are taken back with it.
+pub(crate) async fn mark_gone(
+    connection: &mut SqliteConnection,
+    (table, key): (&str, &str),
+    (after, by): (i64, i64),
+) -> Result<()> {
+    let mark = sqlx::query(
+        "UPDATE history SET undone = ?1 WHERE table_name = ?2 AND key = ?3 AND id > ?4 AND id < ?1 AND undone IS NULL
+         AND id NOT IN (SELECT undone FROM history WHERE undone IS NOT NULL)",
+    );
+    mark.bind(by).bind(table).bind(key).bind(after).execute(connection).await?;
+    Ok(())
+}
+
 /// Joins what was written since the last transaction to a change set.
 pub(crate) async fn join(connection: &mut SqliteConnection) -> Result<()> {
     let sql = "UPDATE history SET change_set = (SELECT min(id) FROM history WHERE change_set IS NULL)

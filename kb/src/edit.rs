@@ -162,7 +162,8 @@ impl Edit {
             Self::Write(write) => file::write(tx, site, write, author)?,
             Self::Undo(id) => match id.or(tx.undoable(1)?.first().copied()) {
                 Some(id) => {
-                    let (done, with) = undo::undo(tx, (site, rules), id, author)?;
+                    let undone = undo::undo(tx, (site, rules), id, author);
+                    let (done, with) = undone.or_else(|error| Err(undo::refused(tx, id, error)?))?;
                     return Ok(Done::of(done, with));
                 }
                 None => return Err(Error::said(Code::EditNothingToUndo, "there is nothing to undo", None)),

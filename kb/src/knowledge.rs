@@ -154,7 +154,8 @@ pub struct KnowledgeBase {
     pub(crate) rules: Option<PathBuf>,
     /// What stands in place of the user's own rule files.
     drafts: Arc<Drafts>,
-    pub(crate) reseed: bool,
+    /// Who takes the tables from their files again.
+    pub(crate) reseed: Option<Author>,
     at: Option<Timestamp>,
     pub(crate) dial: Dial,
     pub(crate) within: Option<f64>,
@@ -172,7 +173,7 @@ impl KnowledgeBase {
         let folder = Arc::new(alone::folder(path)?);
         let knowledge = Self::of_folder(folder.path())?;
         // the file is all that can be edited
-        Ok(Self { alone: Some((path.to_owned(), folder)), ..knowledge.reseeding(true) })
+        Ok(Self { alone: Some((path.to_owned(), folder)), ..knowledge.reseeding(Self::nobody()) })
     }
 
     fn of_folder(folder: &Path) -> Result<Self> {
@@ -192,7 +193,7 @@ impl KnowledgeBase {
             database,
             rules: None,
             drafts: Arc::default(),
-            reseed: false,
+            reseed: None,
             at: None,
             dial: Dial::default(),
             within: None,
@@ -384,10 +385,10 @@ impl KnowledgeBase {
         self.at.is_some()
     }
 
-    /// Whether the next build takes the robot table from its file again.
+    /// The next build takes the tables from their files again; what it replaces is in the history, as an edit of this author.
     #[must_use]
-    pub fn reseeding(mut self, reseed: bool) -> Self {
-        self.reseed = reseed;
+    pub fn reseeding(mut self, author: Author) -> Self {
+        self.reseed = Some(author);
         self
     }
 

@@ -5,6 +5,7 @@ mod memory;
 mod once;
 mod renewal;
 pub(crate) mod report;
+mod reseeded;
 mod routes;
 mod shared;
 mod trees;

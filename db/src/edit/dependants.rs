@@ -32,3 +32,21 @@ pub(super) async fn with(
     let found = dynamic::fetch(connection, sql, &values).await?;
     found.first().map_or(Ok(row), |found| Cell::of(found, 0))
 }
+
+/// The keys of the rows that went with a removed one.
+pub(super) async fn keys(
+    connection: &mut SqliteConnection,
+    table: &str,
+    removed: &Cell,
+) -> Result<Vec<String>> {
+    if table != "robots" || !matches!(removed, Cell::Text(_)) {
+        return Ok(Vec::new());
+    }
+    let key = ["robot", "from_state", "to_state"].map(|part| format!("json_extract(value, '$.{part}')"));
+    let sql = format!(
+        "SELECT {} FROM json_each(CASE WHEN json_valid(?1) THEN ?1 ELSE '{{}}' END, '$.{CHANGES}')",
+        key.join(" || '/' || ")
+    );
+    let rows = dynamic::fetch(connection, sql, std::slice::from_ref(removed)).await?;
+    rows.iter().map(|row| Ok(Cell::of(row, 0)?.to_string())).collect()
+}

@@ -3,7 +3,7 @@
 use sqlx::{Row, SqliteConnection};
 
 use super::table::Table;
-use super::{Edited, add_row, insert, remove_row, set_cell};
+use super::{Edited, add_row, dependants, insert, remove_row, set_cell};
 use crate::cell::Cell;
 use crate::error::{Error, Result};
 use crate::history::{self, Author, Edit};
@@ -22,6 +22,9 @@ pub async fn undo(connection: &mut SqliteConnection, id: i64, author: &Author) -
     }
     let done = inverse(connection, &edit, author).await?;
     history::mark_undone(connection, id, done.id).await?;
+    for key in dependants::keys(connection, &edit.table, &done.old).await? {
+        history::mark_gone(connection, (dependants::CHANGES, &key), (id, done.id)).await?;
+    }
     Ok(done)
 }
 
@@ -32,12 +35,18 @@ async fn inverse(connection: &mut SqliteConnection, edit: &Edit, author: &Author
         None => table.json(),
     };
     if edit.column.is_some() || edit.old == Cell::Null {
-        let found = table.locate(connection, &edit.key).await?;
+        let conflict = |reason: String| Error::Conflict { id: edit.id, reason };
+        let row = format!("{}.{}", edit.table, edit.key);
+        let found = table.locate(connection, &edit.key).await.map_err(|error| match error {
+            Error::UnknownKey { .. } => conflict(format!("{row} is not there any more")),
+            error => error,
+        })?;
         let now = table.read(connection, &what, &found).await?;
         if now != edit.new {
-            let column = edit.column.as_ref().map_or(String::new(), |column| format!(".{column}"));
-            let reason = format!("{}.{}{column} is {now} now, not {}", edit.table, edit.key, edit.new);
-            return Err(Error::Conflict { id: edit.id, reason });
+            return Err(conflict(match &edit.column {
+                Some(column) => format!("{row}.{column} is {now} now, not {}", edit.new),
+                None => format!("{row} holds something else by now"),
+            }));
         }
     }
     match (&edit.column, &edit.old) {

@@ -5,6 +5,7 @@ use clap::Args;
 
 use super::args::SiteArgs;
 use super::output::{json, line, maybe, number, remark, time};
+use super::tune::author;
 use crate::error::Result;
 use crate::knowledge::KnowledgeBase;
 use crate::live::report::{Change, Concluded, Remeasured, Report, RouteChange};
@@ -44,8 +45,11 @@ const NOTHING_KEPT: &str = "no routes are kept: `[[place]]` in site.toml names t
 
 pub fn run(args: &BuildArgs) -> Result<()> {
     let knowledge = unbuilt(&args.site)?.at(args.at.as_deref())?;
-    let again = args.reseed || knowledge.is_map_alone();
-    let knowledge = knowledge.reseeding(again);
+    let knowledge = if args.reseed && !knowledge.is_map_alone() {
+        knowledge.reseeding(author("tables as their files have them"))
+    } else {
+        knowledge
+    };
     let report = {
         let spinner = Spinner::new();
         knowledge.build(&spinner)?

@@ -7,7 +7,7 @@ use adit_db::history::{Author, Edit as Entry};
 use adit_engine::RuleBase;
 
 use super::file;
-use crate::error::Result;
+use crate::error::{Code, Error, Result};
 use crate::knowledge::KnowledgeBase;
 use crate::site::journal::FILES;
 
@@ -20,6 +20,9 @@ pub(super) fn undo(
     author: &Author,
 ) -> Result<(Edited, usize)> {
     let mut parts = tx.made_together(id)?;
+    if parts.is_empty() {
+        return Err(Error::said(Code::EditNothingToUndo, format!("there is no edit {id}"), None));
+    }
     parts.retain(|of| of.undone.is_none());
     let by_rule =
         |of: &Entry| rules.rules().iter().find(|rule| rule.reacts() && called(rule.name()) == of.who);
@@ -59,6 +62,16 @@ pub(super) fn undo(
         Some(done) => Ok((done, parts.len() - 1)),
         None => Ok((tx.undo(id, author)?, 0)),
     }
+}
+
+/// Why an edit is not taken back, with the one that can be instead.
+pub(super) fn refused(tx: &mut Tx<'_>, id: i64, error: Error) -> Result<Error> {
+    let is_conflict = error.problems().iter().any(|problem| problem.code() == Some(Code::EditConflict));
+    let made = tx.made_together(id)?;
+    let before = tx.undoable(u32::MAX)?.into_iter().find(|other| made.iter().all(|of| *other < of.id));
+    let Some(before) = before.filter(|_| is_conflict) else { return Ok(error) };
+    let help = format!("the edit before it is {before}: say its number to take that one back");
+    Ok(Error::said(Code::EditConflict, error.to_string(), Some(help)))
 }
 
 /// Who tells what a rule tells.

@@ -14,6 +14,7 @@ use adit_engine::{Rule, RuleBase, Schema};
 
 use super::memory::Memory;
 use super::report::{Report, unfit_places};
+use super::reseeded::Held;
 use crate::answer::{Answer, Basis, Ground, Status, pick_robot};
 use crate::edit::{Done, Edit, Errand};
 use crate::error::{Code, Error, Finding, Result};
@@ -59,12 +60,19 @@ impl KnowledgeBase {
         inputs: &Arc<Inputs>,
         progress: &dyn Progress,
     ) -> Result<(Memory, Report)> {
-        let (site, again) = (self.site(), self.reseed);
+        let (site, again) = (self.site(), self.reseed.is_some());
         let seed = if site.has_rooms() { Some(RobotFile::read(&site.robots)?) } else { None };
         let mut tables = self.tables_of_map();
         tables.extend(tables::read(&site.tables())?);
         let (places, loads) = (self.places_of_map(), self.loads_of_map());
         let built = store.transaction(|tx| {
+            let own = tables.iter().map(|table| table.name.as_str());
+            let seeded = ["changes", "loads", "robots", "places"].into_iter().chain(own).collect::<Vec<_>>();
+            // a map that is a site alone has nothing that anybody edited
+            let is_built = tx.site_value("generation")?.is_some();
+            let replacing = self.reseed.as_ref().filter(|_| is_built && !self.is_map_alone());
+            let held =
+                replacing.map(|author| Held::of(tx, &seeded).map(|held| (held, author))).transpose()?;
             let notes = seed.map(|seed| seed.seed_tables(tx, &site.robots, again)).transpose()?;
             let mut notes = notes.unwrap_or_default();
             for table in &tables {
@@ -75,8 +83,10 @@ impl KnowledgeBase {
             if let Some(places) = &places {
                 notes.extend(seed_places(tx, places, again)?);
             }
+            let replaced = held.map(|(held, author)| held.record(tx, author)).transpose()?;
             let (memory, mut report) = Memory::build(tx, self, inputs, progress)?;
             report.notes.extend(notes);
+            report.notes.extend(replaced.unwrap_or_default());
             // an edit says it of what it changes, a build of all
             for note in unfit_places(&memory.state) {
                 if !report.notes.contains(&note) {

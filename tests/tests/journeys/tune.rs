@@ -3,6 +3,8 @@
 
 use adit_tests::TestSite;
 
+const STARTER: &str = "map = \"map.toml\"\nrobots = \"robots.toml\"\n";
+
 #[test]
 fn a_hardness_is_tuned_and_what_follows_is_said() {
     let site = TestSite::example("paper").built();
@@ -184,4 +186,49 @@ fn what_edits_did_is_said_in_words_also_of_whole_rows() {
     let history = site.adit("history", &[]).expecting(0).stdout;
     assert!(history.contains("new: robot robot, state ROLL, action ROLL, height 3"), "{history}");
     assert!(!history.contains('{'), "{history}");
+}
+
+#[test]
+fn an_undone_edit_takes_those_along_whose_rows_went_with_it() {
+    let site = TestSite::example("starter").with("site.toml", STARTER).built();
+    let crawl = ["robots", "CRAWL", "--add", "action=CREEP", "height=0.5", "width=0.8", "hardness=6"];
+    site.adit("tune", &["robots", "SQUAT", "hardness", "9"]).expect_status(0);
+    site.adit("tune", &crawl).expect_status(0);
+    site.adit("tune", &["changes", "STAND/CRAWL", "--add", "hardness=1"]).expect_status(0);
+    site.adit("undo", &["2"]).expect_status(0);
+    site.adit("undo", &["3"]).expecting(2).complains(&["edit 4 did so already", "the edit before it is 1"]);
+    // the newest edit that is left
+    let undone = site.adit("undo", &[]).expecting(0).stdout;
+    assert!(undone.starts_with("undone: robots.robot/SQUAT.hardness: 9 → 4"), "{undone}");
+    site.adit("undo", &["99"]).expecting(2).complains(&["there is no edit 99"]);
+}
+
+#[test]
+fn what_files_replace_in_tables_is_in_the_history_and_comes_back() {
+    let ores = "ore*,weight,hard\nlead,2,true\niron,3,false\n";
+    let site = TestSite::example("starter").with("site.toml", STARTER).with("tables/ores.csv", ores).built();
+    let all = |site: &TestSite| {
+        let tables =
+            ["robots", "changes", "ores"].map(|table| format!("SELECT * FROM {table} ORDER BY 1, 2, 3"));
+        tables.map(|query| site.sqlite3(&query))
+    };
+    let seeded = all(&site);
+    site.adit("tune", &["ores", "iron", "weight", "7"]).expect_status(0);
+    site.adit("tune", &["ores", "gold", "--add", "weight=9", "hard=false"]).expect_status(0);
+    site.adit("tune", &["robots", "SQUAT", "--remove"]).expect_status(0);
+    let tuned = all(&site);
+    site.adit("build", &["--reseed"]).expecting(0).complains(&["what the files replaced is in the history"]);
+    assert_eq!(all(&site), seeded);
+    site.adit("undo", &[]).expect_status(0);
+    assert_eq!(all(&site), tuned);
+    // what the files have already is no edit
+    let before = site.sqlite3("SELECT count(*) FROM history");
+    site.adit("build", &[]).expect_status(0);
+    assert_eq!(site.sqlite3("SELECT count(*) FROM history"), before);
+    // other columns are another table
+    let other = site.with("tables/ores.csv", "ore*,weight\nlead,2\n");
+    other
+        .adit("build", &["--reseed"])
+        .expecting(0)
+        .complains(&["the table ores has other columns than before"]);
 }
