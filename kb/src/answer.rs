@@ -17,7 +17,7 @@ use serde::Serialize;
 
 use crate::error::{Code, Error, Nearest, Result};
 use crate::state::State;
-use crate::words::suggest::did_you_mean;
+use crate::words::suggest::{did_you_mean, listed};
 
 pub(crate) use basis::{Basis, Ground};
 
@@ -151,7 +151,8 @@ pub(crate) fn pick(robots: &[String], wanted: Option<&str>) -> Result<String> {
     match wanted {
         Some(name) if robots.iter().any(|robot| robot == name) => Ok(name.to_owned()),
         Some(name) => {
-            let help = did_you_mean(name, robots.iter().map(String::as_str));
+            let known = || robots.iter().map(String::as_str);
+            let help = did_you_mean(name, known()).or_else(|| listed("robots", known()));
             Err(Error::said(Code::RouteUnknownRobot, format!("there is no robot `{name}`"), help))
         }
         None if robots.len() > 1 => {

@@ -37,7 +37,7 @@ use tempfile::TempDir;
 use crate::error::{Code, Error, Finding, Result};
 use crate::knowledge::inputs::Inputs;
 use crate::knowledge::laid::Laid;
-use crate::knowledge::told::{Fact, Told};
+use crate::knowledge::told::{Fact, NOBODY, Told};
 use crate::knowledge::tunings::RowKeys;
 use crate::plan;
 use crate::plan::consult::Class;
@@ -394,7 +394,7 @@ impl KnowledgeBase {
 
     /// Who edits what is taken back again.
     pub(crate) fn nobody() -> Author {
-        Author { who: "nobody".to_owned(), why: String::new() }
+        Author { who: NOBODY.to_owned(), why: String::new() }
     }
 
     pub(crate) fn planners(&self) -> &[Arc<dyn Planner>] {

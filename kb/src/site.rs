@@ -203,6 +203,12 @@ impl Layout {
     }
 }
 
+/// What a site is called that gives itself no name: as its folder is.
+fn name_of(folder: &Path) -> String {
+    let whole = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
+    whole.file_name().map_or_else(|| folder.display().to_string(), |name| name.to_string_lossy().into_owned())
+}
+
 /// The keys of a site whose map is not cut into rooms.
 const KEYS_WITHOUT_ROOMS: [&str; 7] = ["name", "map", "rules", "starts", "hours", "timezone", "place"];
 
@@ -269,8 +275,7 @@ impl Site {
         };
         let site = Self {
             folder: folder.to_owned(),
-            name: optional_text(&fields, "name", &mut problems)
-                .unwrap_or_else(|| folder.display().to_string()),
+            name: optional_text(&fields, "name", &mut problems).unwrap_or_else(|| name_of(folder)),
             map,
             robots: path(optional_text(&fields, "robots", &mut problems), "robots.toml"),
             rules: with_own(folder, beneath),

@@ -241,6 +241,11 @@ pub fn changes(said: &str, report: &Report) {
     if report.routes.changes.len() > LISTED {
         line(&format!("  and {} more between places", report.routes.changes.len() - LISTED));
     }
+    let (routes, places) = (&report.routes, report.routes.changes.len());
+    let counted = routes.shorter + routes.longer + routes.lost + routes.found;
+    if !routes.between_places && places > 0 && counted > places {
+        line(&format!("  and {} more to rooms", counted - places));
+    }
     notes(report);
 }
 

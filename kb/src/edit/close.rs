@@ -46,8 +46,14 @@ pub struct Close {
 }
 
 impl Close {
-    /// The fact that says it.
+    /// The fact that says it; nothing that has no doorway is closed.
     pub(super) fn fact(&self, tx: &mut Tx<'_>) -> Result<Tell> {
+        let tell = self.told(tx)?;
+        refuse_doorless(tx, &tell)?;
+        Ok(tell)
+    }
+
+    fn told(&self, tx: &mut Tx<'_>) -> Result<Tell> {
         let what = self.what.trim();
         let (class, object) =
             if tx.site_value(LAYOUT)?.is_some() { of_map(tx, what)? } else { named(tx, what)? };
@@ -80,6 +86,22 @@ impl Close {
     }
 }
 
+/// Refuses a space that nobody comes into through a doorway: nothing of it would be closed.
+fn refuse_doorless(tx: &mut Tx<'_>, tell: &Tell) -> Result<()> {
+    let name = tell.object.as_str();
+    if tell.class != "SPACES" {
+        return Ok(());
+    }
+    let building = Building::read(tx)?;
+    let Some(space) = building.space_named(name).map(|space| space.space) else { return Ok(()) };
+    if building.doorways.iter().any(|of| of.space1 == space || of.space2 == space) {
+        return Ok(());
+    }
+    let message = format!("`{name}` has no doorway that could be closed");
+    let help = "lay an area over the part of it that is to be kept clear".to_owned();
+    Err(Error::said(Code::TellUsage, message, Some(help)))
+}
+
 /// Takes back all facts that close something; where none does, tells that it is not closed.
 pub(super) fn open(
     tx: &mut Tx<'_>,
@@ -87,7 +109,7 @@ pub(super) fn open(
     what: &str,
     author: &Author,
 ) -> Result<Edited> {
-    let tell = Close { what: what.to_owned(), ..Close::default() }.fact(tx)?;
+    let tell = Close { what: what.to_owned(), ..Close::default() }.told(tx)?;
     let row = tell.row(tx, site, rules, author)?;
     let told = tx.facts_told()?;
     let mut facts: Vec<&Row> = told.iter().filter(|fact| is_about(fact, &tell.class, &row)).collect();

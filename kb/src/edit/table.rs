@@ -77,8 +77,8 @@ pub(super) fn take(
         let told = |error: Error| sheet.wrong(Some(at), &error.to_string(), "the table is as it was");
         let cell = |(column, place): &(usize, Option<usize>)| -> Result<(usize, Cell)> {
             let known = &columns[*column];
-            // around texts blanks count
-            let is_text = known.declared.contains("TEXT");
+            // around texts blanks count, but for those of keys
+            let is_text = known.declared.contains("TEXT") && known.key == 0;
             let text =
                 place.map_or(ONLY_ROBOT, |place| if is_text { &row[place] } else { row[place].trim() });
             Ok((*column, cell_of(table, &known.name, text, &columns)?))

@@ -91,7 +91,10 @@ impl Building {
     /// That a fact closes a boundary, and to whom.
     pub fn why_told_closed(&self, line: &Line) -> String {
         let (place, whom) = (self.place_of_line(line), line.whom.words());
-        format!("{place} is told to be closed{whom} (fact {})", line.fact)
+        match line.fact {
+            Some(fact) => format!("{place} is told to be closed{whom} (fact {fact})"),
+            None => format!("{place} is closed on this errand"),
+        }
     }
 
     fn place_of_line(&self, Line { segment, area, .. }: &Line) -> String {

@@ -56,7 +56,12 @@ pub struct Fact {
     pub property: String,
     /// What it is.
     pub value: Value,
+    /// Whether it is kept: what an errand tells is taken back again.
+    pub is_kept: bool,
 }
+
+/// Who tells what is taken back again.
+pub const NOBODY: &str = "nobody";
 
 /// What a fact is about.
 #[derive(Clone, Debug, PartialEq)]
@@ -87,7 +92,13 @@ impl Fact {
             return Err(Error::said(Code::TellUnreadable, message, None));
         };
         let (id, class, property) = (row.id, row.class.clone(), row.property.clone());
-        Ok(Self { id, class, object, property, value })
+        let is_kept = row.who != NOBODY;
+        Ok(Self { id, class, object, property, value, is_kept })
+    }
+
+    /// Its number, of one that is kept.
+    pub fn number(&self) -> Option<i64> {
+        self.is_kept.then_some(self.id)
     }
 
     /// The type of its value.

@@ -86,6 +86,7 @@ impl KnowledgeBase {
             let replaced = held.map(|(held, author)| held.record(tx, author)).transpose()?;
             let (memory, mut report) = Memory::build(tx, self, inputs, progress)?;
             report.notes.extend(notes);
+            report.notes.extend(tables::with_commas(&site.tables()));
             report.notes.extend(replaced.unwrap_or_default());
             // an edit says it of what it changes, a build of all
             for note in unfit_places(&memory.state) {

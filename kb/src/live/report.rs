@@ -22,6 +22,7 @@ use crate::knowledge::KnowledgeBase;
 use crate::knowledge::told::Attached;
 use crate::state::before::Before;
 use crate::state::{State, Weighed};
+use crate::words::number::number;
 use crate::words::progress::Stage;
 
 /// How many there are of something, and how many changed.
@@ -98,6 +99,8 @@ impl Routes {
     /// Counts a route among those that cost less or more, or that there is no more or was not before.
     pub fn weigh(&mut self, old: Option<f64>, new: Option<f64>) {
         match (old, new) {
+            // what nobody reads is no change
+            (Some(old), Some(new)) if number(old) == number(new) => {}
             (Some(old), Some(new)) if new < old => self.shorter += 1,
             (Some(old), Some(new)) if new > old => self.longer += 1,
             (Some(_), None) => self.lost += 1,
@@ -134,7 +137,9 @@ impl Routes {
         self.between_places = between_places;
         let nodes = old_rows.nodes().chain(new_rows.nodes().filter(|node| old_rows.row(*node).is_none()));
         // where rooms weigh metres the others are points at which ways bend, and nobody's goals
-        for node in nodes.filter(|node| !between_places || graph.place_of(*node).is_some()) {
+        let is_goal = |place: &str| !between_places || place != start.name;
+        let is_meant = |node: &i64| graph.place_of(*node).map_or(!between_places, is_goal);
+        for node in nodes.filter(is_meant) {
             let (old_row, new_row) = (old_rows.row(node), new_rows.row(node));
             let costs = (old_row.map(then), new_row.map(now));
             self.weigh(costs.0, costs.1);
@@ -143,7 +148,11 @@ impl Routes {
             let differ = costs.0.map(f64::to_bits) != costs.1.map(f64::to_bits);
             changed += usize::from(differ || other_way);
             rerouted += usize::from(other_way && are_both);
-            if differ && let Some(place) = graph.place_of(node) {
+            let is_read = other_way || costs.0.map(number) != costs.1.map(number);
+            if differ
+                && is_read
+                && let Some(place) = graph.place_of(node)
+            {
                 let (robot, from) = (start.robot.clone(), start.name.clone());
                 let (goal, other_way) = (place.to_owned(), Some(other_way));
                 self.changes.push(RouteChange {

@@ -113,11 +113,6 @@ impl Sheet {
                 let help = "the first row names all columns, and nothing stands above it or beside it";
                 return Err(self.wrong(None, &format!("column {} has no name", place + 1), help));
             }
-            if name.contains(';') && self.columns.len() == 1 {
-                let help =
-                    "cells are parted by commas and numbers written with a point: save it so, or as .xlsx";
-                return Err(self.wrong(None, "its cells are parted by semicolons", help));
-            }
             if !is_name(name) {
                 return Err(self.wrong(None, &format!("`{name}` is no name of a column"), NAMES));
             }
@@ -145,7 +140,14 @@ impl Sheet {
             let said: Vec<&str> = self.key.iter().map(|&column| row[column].trim()).collect();
             if let Some(first) = seen.insert(said.clone(), at + 2) {
                 let message = format!("two rows are called {}", said.join("/"));
-                return Err(self.wrong(Some(at), &message, &format!("the first is row {first}")));
+                let mut help = format!("the first is row {first}");
+                if self.key == [0] && self.columns.len() > 1 {
+                    let [one, other] = [&self.columns[0], &self.columns[1]];
+                    help = format!(
+                        "{help}; where several columns say which object it is, mark them: {one}*, {other}*"
+                    );
+                }
+                return Err(self.wrong(Some(at), &message, &help));
             }
         }
         Ok(())
@@ -203,17 +205,45 @@ fn of_text(path: &Path, bytes: Vec<u8>) -> Result<Parts> {
             Some(help),
         ));
     }
-    let mut reader = csv::ReaderBuilder::new().has_headers(false).flexible(true).from_reader(text.as_bytes());
+    // where numbers are written with a comma, spreadsheet programs part cells by semicolons
+    let head = text.lines().next().unwrap_or_default();
+    let is_with_semicolons = head.contains(';') && !head.contains(',');
+    let mut builder = csv::ReaderBuilder::new();
+    builder.has_headers(false).flexible(true).delimiter(if is_with_semicolons { b';' } else { b',' });
+    let mut reader = builder.from_reader(text.as_bytes());
     let (mut lines, mut rows) = (Vec::new(), Vec::new());
     for record in reader.records() {
         let record = record.map_err(|error| {
             let message = format!("{file}: this does not read as CSV: {error}");
             Error::said(Code::TableFile, message, Some("one row a line, cells parted by commas".to_owned()))
         })?;
-        lines.push(record.position().map_or(0, |position| position.byte() as usize));
-        rows.push(record.iter().map(str::to_owned).collect());
+        // below the rows of a sheet others may have stood
+        if record.iter().all(|cell| cell.trim().is_empty()) {
+            continue;
+        }
+        let begin = record.position().map_or(0, |position| position.byte() as usize);
+        // behind a line that ends with two signs the reader stands at the second one
+        let ends = text[begin..].len() - text[begin..].trim_start_matches(['\r', '\n']).len();
+        lines.push(begin + ends);
+        let cell = |cell: &str| if is_with_semicolons { with_point(cell) } else { cell.to_owned() };
+        rows.push(record.iter().map(cell).collect());
     }
     Ok((Lines::Text(text, lines), rows))
+}
+
+/// A number that is written with a comma, with a point.
+fn with_point(cell: &str) -> String {
+    if has_decimal_comma(cell) { cell.replacen(',', ".", 1) } else { cell.to_owned() }
+}
+
+/// Whether a cell is a number but for a comma in place of the point.
+pub fn has_decimal_comma(cell: &str) -> bool {
+    let cell = cell.trim();
+    let is_digits = |part: &str| !part.is_empty() && part.bytes().all(|byte| byte.is_ascii_digit());
+    cell.strip_prefix('-')
+        .unwrap_or(cell)
+        .split_once(',')
+        .is_some_and(|(whole, part)| is_digits(whole) && is_digits(part))
 }
 
 fn of_workbook(path: &Path, bytes: Vec<u8>, most: u64) -> Result<Parts> {

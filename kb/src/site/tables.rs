@@ -7,7 +7,7 @@ use adit_db::relation::Relation;
 use adit_db::{Cell, Tx};
 use adit_planners::facts::{Column, Table};
 
-use super::sheet::{Sheet, is_sheet};
+use super::sheet::{Sheet, has_decimal_comma, is_sheet};
 use crate::error::{Code, Error, Finding, Result};
 use crate::words::number::counted;
 
@@ -23,9 +23,11 @@ pub struct TableFile {
     rows: Vec<Vec<Cell>>,
 }
 
-/// The files of tables in a folder, by name.
+/// The files of tables in a folder, by name, but for those by which spreadsheet programs mark what is open: `~$ores.xlsx`.
 pub fn files(folder: &Path) -> Vec<PathBuf> {
     let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    let is_lock = |name: &str| name.starts_with("~$") || name.starts_with(".~lock");
+    let entries = entries.filter(|entry| !is_lock(&entry.file_name().to_string_lossy()));
     let mut files: Vec<PathBuf> = entries.map(|entry| entry.path()).filter(|path| is_sheet(path)).collect();
     files.sort();
     files
@@ -34,6 +36,27 @@ pub fn files(folder: &Path) -> Vec<PathBuf> {
 /// Reads all of them.
 pub fn read(folder: &Path) -> Result<Vec<TableFile>> {
     files(folder).iter().map(|path| TableFile::of(&Sheet::read(path)?)).collect()
+}
+
+/// A word about each column that is of texts for the one reason that its numbers are written with commas.
+pub fn with_commas(folder: &Path) -> Vec<String> {
+    let mut found = Vec::new();
+    for sheet in files(folder).iter().filter_map(|path| Sheet::read(path).ok()) {
+        for (at, column) in sheet.columns.iter().enumerate() {
+            let cells = || sheet.rows.iter().map(|row| row[at].trim()).enumerate();
+            let mut known = cells().filter(|(_, cell)| !cell.is_empty());
+            let is_number = |(_, cell): (usize, &str)| is_number(cell) || has_decimal_comma(cell);
+            if let Some((row, text)) = cells().find(|(_, cell)| has_decimal_comma(cell))
+                && known.all(is_number)
+            {
+                let (file, row) = (sheet.path.display(), row + 2);
+                found.push(format!(
+                    "{file}, row {row}: `{text}` is written with a comma, so all of `{column}` counts as texts, not as numbers"
+                ));
+            }
+        }
+    }
+    found
 }
 
 /// Cells that are no numbers in columns that hold numbers otherwise, so that rules take the whole column for texts.
@@ -65,7 +88,7 @@ impl TableFile {
         let kinds: Vec<&'static str> = (0..sheet.columns.len()).map(|column| kind(cells(column))).collect();
         let cell = |column: usize, text: &str| match (kinds[column], text.trim()) {
             (_, "") => Cell::Null,
-            ("BOOLEAN", text) => Cell::Integer(i64::from(text == "true")),
+            ("BOOLEAN", text) => Cell::Integer(i64::from(truth(text) == Some(true))),
             ("INTEGER", text) => text.parse().map_or(Cell::Null, Cell::Integer),
             ("REAL", text) => text.parse().map_or(Cell::Null, Cell::Real),
             (_, text) => Cell::Text(text.to_owned()),
@@ -165,7 +188,7 @@ fn kind<'c>(cells: impl Iterator<Item = &'c str> + Clone) -> &'static str {
     if known.peek().is_none() {
         return "TEXT";
     }
-    if known.clone().all(|cell| cell == "true" || cell == "false") {
+    if known.clone().all(|cell| truth(cell).is_some()) {
         "BOOLEAN"
     } else if known.clone().all(|cell| is_plain(cell) && cell.parse::<i64>().is_ok()) {
         "INTEGER"
@@ -174,6 +197,13 @@ fn kind<'c>(cells: impl Iterator<Item = &'c str> + Clone) -> &'static str {
     } else {
         "TEXT"
     }
+}
+
+/// `true` and `false`, and as spreadsheet programs write them.
+fn truth(cell: &str) -> Option<bool> {
+    [("true", true), ("false", false)]
+        .into_iter()
+        .find_map(|(word, is)| cell.eq_ignore_ascii_case(word).then_some(is))
 }
 
 /// `007` and `+1` are names, and not numbers.

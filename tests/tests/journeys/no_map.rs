@@ -112,7 +112,7 @@ fn files_that_are_no_tables_are_refused_with_their_place() {
 #[test]
 fn what_needs_a_map_says_that_there_is_none() {
     let site = shop().built();
-    site.adit("route", &["a", "b"]).expecting(2).complains(&["shop has no map"]);
+    site.adit("route", &["a", "b"]).expecting(2).complains(&[" has no map: it has tables and rules"]);
     site.write("site.toml", format!("{}map = \"map.toml\"\n", site.read("site.toml")));
     site.adit("build", &[]).expecting(2).complains(&["`map` is not a key of site.toml"]);
 }

@@ -123,6 +123,29 @@ fn a_door_or_a_space_that_nothing_closes_is_not_told_to_be_open() {
 }
 
 #[test]
+fn a_space_without_a_doorway_is_not_said_to_be_closed() {
+    let map = "width = 9.0\ndepth = 4.0\n";
+    let site =
+        "[[place]]\nname = \"charger\"\nat = [1.0, 1.0]\n[[place]]\nname = \"shelf\"\nat = [8.0, 3.0]\n";
+    let site = TestSite::example("starter").with("map.toml", map).with("site.toml", site).built();
+    let refused = ["has no doorway that could be closed", "lay an area"];
+    let name = site.sqlite3("SELECT name FROM spaces").concat();
+    for what in ["charger", &name] {
+        site.adit("close", &[what]).expecting(2).complains(&refused);
+    }
+    assert_eq!(site.sqlite3("SELECT count(*) FROM told"), ["0"]);
+}
+
+#[test]
+fn an_errand_that_keeps_away_names_no_fact_that_there_is_not() {
+    let site = two_rooms().built();
+    let said = site.adit("route", &["home", "window", "--avoid", "middle"]).expecting(1).stdout;
+    assert!(said.contains("this errand keeps away from `middle`") && !said.contains("fact"), "{said}");
+    let said = site.adit("route", &["home", "window", "--avoid", "6,3.5@0"]).expecting(1).stdout;
+    assert!(said.contains("keeps away from `6,3.5@0`") && !said.contains("fact"), "{said}");
+}
+
+#[test]
 fn an_edit_is_taken_back_before_those_that_came_before_it_of_the_same_cell() {
     let site = two_rooms().built();
     for hardness in ["3", "5", "3"] {

@@ -267,3 +267,28 @@ fn a_word_among_numbers_is_named_with_its_line_where_rules_want_numbers() {
         "of `price` are",
     ]);
 }
+
+#[test]
+fn a_table_is_read_as_spreadsheet_programs_of_many_countries_write_it() {
+    let with_semicolons =
+        "floor*;hard;smooth;name\r\ngravel;1,5;TRUE;a, b\r\ntiles;-2,25;FALSE;7,5 m\r\n;;;\r\n";
+    let site = TestSite::example("shop").with("tables/floors.csv", with_semicolons);
+    // a workbook that is open leaves a file beside it that is none
+    let site = site.with("tables/~$floors.xlsx", "lock").built();
+    let rows = site.sqlite3("SELECT floor, hard, smooth, name, typeof(hard) FROM floors");
+    assert_eq!(rows, ["gravel|1.5|1|a, b|real", "tiles|-2.25|0|7,5 m|real"]);
+    // among cells that are parted by commas they would be texts
+    let site = site.with("tables/sizes.csv", "floor,size\ntiles,\"1,5\"\ngravel,2\n");
+    let said = ["sizes.csv, row 2: `1,5` is written with a comma, so all of `size` counts as texts"];
+    site.adit("build", &[]).expecting(0).complains(&said);
+    // a blank behind a name makes no other object of it
+    let table = site.adit("table", &["floors"]).expecting(0).stdout;
+    site.write("floors.csv", table.replace("gravel,", "gravel ,"));
+    site.adit("table", &["floors", "--from", &at(&site, "floors.csv")])
+        .expecting(2)
+        .complains(&["says already"]);
+    // a line that ends with two signs is shown whole
+    site.write("floors.csv", "floor,hard\r\ngravel,1\r\ngravel,2\r\n");
+    let said = ["floors.csv:3:1", "mark them: floor*, hard*"];
+    site.adit("table", &["floors", "--from", &at(&site, "floors.csv")]).expecting(2).complains(&said);
+}

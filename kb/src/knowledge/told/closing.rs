@@ -39,8 +39,8 @@ pub enum Whom {
 /// A boundary that a fact closes, with which no rule has anything to do.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Line {
-    /// The fact, by number.
-    pub fact: i64,
+    /// The fact, by number; none of what an errand alone keeps away from.
+    pub fact: Option<i64>,
     /// From x0, y0 to x1, y1.
     pub segment: [f64; 4],
     pub whom: Whom,
@@ -106,7 +106,7 @@ impl Fact {
     /// `keys` are those of the objects that it is about.
     pub fn lines(&self, keys: &[String], Closable { doorways, areas }: Closable<'_>) -> Vec<Line> {
         let Some(whom) = self.keeps_out() else { return Vec::new() };
-        let line = |segment: [f64; 4]| Line { fact: self.id, segment, whom: whom.clone(), area: None };
+        let line = |segment: [f64; 4]| Line { fact: self.number(), segment, whom: whom.clone(), area: None };
         if keys.is_empty() {
             return self.closes().map(line).into_iter().collect();
         }
