@@ -442,6 +442,14 @@ fn no_site(folder: &Path, file: &Path, error: &std::io::Error) -> Error {
     if error.kind() != std::io::ErrorKind::NotFound {
         return Error::io("read", file, error);
     }
+    if !folder.exists() {
+        let message = format!("there is no folder and no file {}", folder.display());
+        let help = match folder.extension() {
+            Some(_) => "say where the map's file is".to_owned(),
+            None => format!("`adit new {}` starts a site", folder.display()),
+        };
+        return Error::said(error::Code::SiteMissing, message, Some(help));
+    }
     Error::said(
         error::Code::SiteMissing,
         format!("{} is not a site: it has no site.toml", folder.display()),

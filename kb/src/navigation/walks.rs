@@ -185,7 +185,7 @@ impl Pathfinder for Walkers {
                 best = Some(joined);
             }
         }
-        Ok(best.unwrap_or_else(|| {
+        Ok(best.filter(|best| best.row.reason.is_none()).unwrap_or_else(|| {
             let mut judge = self
                 .walkers
                 .iter()

@@ -49,6 +49,41 @@ pub fn why(courses: &Courses, what: &str, generation: u64) -> Result<Option<Why>
     Ok(Some(Why { generation, object, name, conclusions, facts, hindered: Vec::new(), easier: None }))
 }
 
+/// What the best route between two ends costs, if there is one, and in sentences why: what rules said of each thing that it
+/// leads over, or of `at` alone.
+pub fn why_way(
+    courses: &Courses,
+    (start, goal): (&str, &str),
+    at: Option<&str>,
+    robot: &str,
+) -> Result<(Option<f64>, Vec<String>)> {
+    let Found { row, said } = courses.find(robot, start, goal)?;
+    let Some(cost) = row.cost.filter(|_| row.reason.is_none()) else {
+        let why = row.reason.map_or(String::new(), |reason| format!(": {reason}"));
+        return Ok((None, vec![format!("No route leads from {start} to {goal}{why}.")]));
+    };
+    let is_asked = |said: &&Arc<Said>| at.is_none_or(|at| said.place == at.trim());
+    let mut sentences = vec![format!("The route from {start} to {goal} costs {}.", number(cost))];
+    for said in said.iter().filter(is_asked) {
+        let sentence = in_short(said, &said.place).why;
+        if sentences.last() != Some(&sentence) {
+            sentences.push(sentence);
+        }
+    }
+    match (sentences.len(), at) {
+        (1, Some(at)) => {
+            let message = format!("rules were asked nothing about {at} on the way from {start} to {goal}");
+            let help = "`adit route SITE START GOAL --steps` has what a route leads through".to_owned();
+            Err(Error::said(Code::WhyUnknown, message, Some(help)))
+        }
+        (1, None) => {
+            sentences.push("Rules were asked nothing on the way; none that was found costs less.".to_owned());
+            Ok((Some(cost), sentences))
+        }
+        _ => Ok((Some(cost), sentences)),
+    }
+}
+
 /// Where, on which way.
 fn on(place: &str, row: &Row) -> String {
     format!("{place}, from {} to {} ({})", row.start, row.goal, row.robot)
@@ -65,8 +100,10 @@ fn in_short(said: &Said, from: &str) -> Reasoned {
         None => (String::new(), adit_db::Cell::Null, None),
     };
     let by = rule.as_ref().map_or("no rule spoke".to_owned(), |rule| format!("by rule \"{rule}\""));
-    let weight = decided.as_ref().filter(|(fact, _)| fact.property == "weight");
-    let weight = weight.map_or(String::new(), |(fact, _)| format!("weighs {}, ", written(&fact.value)));
+    let weight = decided.as_ref().map_or(String::new(), |(fact, _)| match fact.property {
+        "weight" => format!("weighs {}, ", written(&fact.value)),
+        _ => "how it is passed is said ".to_owned(),
+    });
     Reasoned {
         property,
         value,

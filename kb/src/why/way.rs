@@ -13,9 +13,10 @@ use serde::Serialize;
 
 use super::contrast::without::Without;
 use super::contrast::{Beside, Choice, Routes, Turn, is_best};
+use super::course;
 use super::hindered::{Driven, Hindered};
 use crate::answer;
-use crate::error::{Code, Error, Result};
+use crate::error::Result;
 use crate::graph::SiteGraph;
 use crate::live::Live;
 use crate::state::State;
@@ -103,6 +104,22 @@ pub struct Holds {
     pub exact: bool,
 }
 
+impl WhyWay {
+    /// Of which nothing is known yet.
+    fn blank(generation: u64, (start, goal): (&str, &str), robot: String) -> Self {
+        Self {
+            generation,
+            robot,
+            start: start.to_owned(),
+            goal: goal.to_owned(),
+            cost: None,
+            easiest: None,
+            stretches: Vec::new(),
+            sentences: Vec::new(),
+        }
+    }
+}
+
 impl Live {
     /// Why the best route from `start` to `goal` does what it does.
     ///
@@ -121,27 +138,18 @@ impl State {
         at: Option<&str>,
         robot: Option<&str>,
     ) -> Result<WhyWay> {
-        if self.courses.is_some() {
-            let what = "of a map that is not cut into rooms, why is said of what its routes lead over";
-            let help =
-                "say which: `adit why SITE \"lane 8\"`, a junction, a channel, as `adit route` calls it";
-            return Err(Error::said(Code::CourseUnfit, what, Some(help.to_owned())));
+        if let Some(courses) = &self.courses {
+            let robot = answer::pick(&self.robots(), robot)?;
+            let (cost, sentences) = course::why_way(courses, (start, goal), at, &robot)?;
+            return Ok(WhyWay { cost, sentences, ..WhyWay::blank(self.generation, (start, goal), robot) });
         }
         self.site.site().needs_rooms()?;
         let robot = answer::pick(&self.robots(), robot)?;
         let meant = at.map(|at| self.meant(at, &robot)).transpose()?;
         let routes = Routes::new(&self, start, goal, &robot)?;
         let best = Choice::among(&routes, self.graph().graph());
-        let mut answer = WhyWay {
-            generation: self.generation,
-            robot: robot.clone(),
-            start: start.to_owned(),
-            goal: goal.to_owned(),
-            cost: best.as_ref().map(|best| best.driven.cost),
-            easiest: None,
-            stretches: Vec::new(),
-            sentences: Vec::new(),
-        };
+        let mut answer = WhyWay::blank(self.generation, (start, goal), robot.clone());
+        answer.cost = best.as_ref().map(|best| best.driven.cost);
         let Some(best) = best else {
             let basis = self.basis();
             let why = basis.why_shut(&routes.start, &routes.goal);

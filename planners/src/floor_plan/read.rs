@@ -64,8 +64,11 @@ pub fn parse_floor_plan(name: &str, text: &str) -> Result<FloorPlan, MapErrors> 
     let point = |[x, y]: [f64; 2]| Point::new(x, y);
     let place =
         |place: &Spanned<WrittenPlace>| Place { name: place.value.name.clone(), at: point(place.value.at) };
+    // what is kept of several plans in one database is told apart by their names
+    let stem =
+        || Path::new(name).file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
     let drawn = Drawn {
-        name: written.name,
+        name: if written.name.is_empty() { stem() } else { written.name },
         walls: written.walls.iter().map(|wall| wall.value.map(point)).collect(),
         solids: written.solids.iter().map(|solid| solid.value.iter().map(|&p| point(p)).collect()).collect(),
         places: written.places.iter().map(place).collect(),

@@ -59,6 +59,8 @@ codes! {
     Outside = "map/outside",
     /// Lone wall pixels of an image that are taken for noise, or might be, a note.
     Salt = "map/salt",
+    /// The axes of an image lie turned in ROS's map frame, a note.
+    Turned = "map/turned",
     /// Partly outside of the environment: cut at the edge, a note.
     Clipped = "map/clipped",
     /// A polygon with fewer than three distinct corners.

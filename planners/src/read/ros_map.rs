@@ -47,10 +47,26 @@ pub fn read_ros_map(
     report.specks = specks;
     let note = |note: String| Problem::of_file(Code::Salt, format!("{}: {note}", file.image)).as_advice();
     report.notes.extend(salt_note.map(note));
+    report.notes.extend(turned(name, file.origin));
     let mut world = World::empty(walls.bounds());
     world.frame = frame(file.origin);
     world.occupancy = Some(walls);
     Ok((world, report))
+}
+
+/// A word about an origin that is turned: that its yaw is not applied, which whoever says points has to know.
+fn turned(name: &str, origin: Pose) -> Option<Problem> {
+    let yaw = origin.heading;
+    if yaw == 0.0 {
+        return None;
+    }
+    let degrees = (yaw.to_degrees() * 100.0).round() / 100.0;
+    let radians = if yaw.abs() > std::f64::consts::TAU { "; a yaw is in radians" } else { "" };
+    let message = format!(
+        "{name}: its origin is turned by {yaw} ({degrees} degrees{radians}): points are those of the image's own axes, and the table \
+         `frames` has the pose that turns them into ROS's map frame"
+    );
+    Some(Problem::of_file(Code::Turned, message).as_advice())
 }
 
 /// The pose that turns site coordinates into ROS's map frame: a turn about the image's lower left corner.

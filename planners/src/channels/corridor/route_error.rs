@@ -92,6 +92,9 @@ impl fmt::Display for NoRoute {
                     write!(f, "and touch without overlapping")
                 }
             }
+            Self::Refused(passages) if passages.is_empty() => {
+                f.write_str("no chain of channels leads through it from the start to the goal")
+            }
             Self::Refused(passages) => {
                 f.write_str("every way from the start to the goal uses a passage that is not allowed: ")?;
                 for (index, passage) in passages.iter().enumerate() {
