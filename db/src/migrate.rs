@@ -94,6 +94,7 @@ pub(crate) const STEPS: &[Step] = &[
     Step { all: &[], worlds: &[include_str!("../sql/v19/10-lost.sql")] },
     Step { all: &[], worlds: &[include_str!("../sql/v20/10-endings.sql")] },
     Step { all: &[], worlds: &[include_str!("../sql/v21/10-robots.sql")] },
+    Step::of_all(&[include_str!("../sql/v22/10-derived.sql")]),
 ];
 
 /// The newest schema version.

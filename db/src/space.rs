@@ -6,6 +6,7 @@ use sqlx::{Row, SqliteConnection};
 
 use crate::bulk::{self, Record, Values};
 use crate::error::Result;
+use crate::stale::quietly;
 use crate::transaction::Tx;
 
 /// A part of the floor that people see as one.
@@ -182,11 +183,13 @@ pub async fn replace(
     spaces: &[Space],
     doorways: &[Doorway],
 ) -> Result<()> {
-    sqlx::query("DELETE FROM spaces").execute(&mut *connection).await?;
-    sqlx::query("DELETE FROM doorways").execute(&mut *connection).await?;
-    bulk::insert(connection, spaces).await?;
-    bulk::insert(connection, doorways).await?;
-    Ok(())
+    quietly(connection, async |connection| {
+        sqlx::query("DELETE FROM spaces").execute(&mut *connection).await?;
+        sqlx::query("DELETE FROM doorways").execute(&mut *connection).await?;
+        bulk::insert(connection, spaces).await?;
+        bulk::insert(connection, doorways).await.map(drop)
+    })
+    .await
 }
 
 impl Tx<'_> {

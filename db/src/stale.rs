@@ -51,10 +51,19 @@ pub(crate) async fn in_bulk<T>(
     table: &'static str,
     write: impl AsyncFnOnce(&mut SqliteConnection) -> Result<T>,
 ) -> Result<T> {
+    let result = quietly(connection, write).await;
+    mark_stale(connection, table).await?;
+    result
+}
+
+/// Writes what triggers would mark, or refuse from others.
+pub(crate) async fn quietly<T>(
+    connection: &mut SqliteConnection,
+    write: impl AsyncFnOnce(&mut SqliteConnection) -> Result<T>,
+) -> Result<T> {
     sqlx::query("UPDATE writer SET quiet = 1").execute(&mut *connection).await?;
     let result = write(connection).await;
     sqlx::query("UPDATE writer SET quiet = 0").execute(&mut *connection).await?;
-    mark_stale(connection, table).await?;
     result
 }
 

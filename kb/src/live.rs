@@ -1,5 +1,6 @@
 //! A site's knowledge held in memory between edits: an edit costs what depends on it, not what there is.
 
+mod by_hand;
 mod courses;
 mod memory;
 mod once;

@@ -34,6 +34,7 @@ pub use settings::{MapSettings, Unknown};
 pub(crate) use source::Source;
 pub use suggest::nearest;
 pub(crate) use value::{At, Read};
+pub use zone_set::ZONE_ID;
 
 /// Reads a map by its extension: `.toml` a vector map, `.yaml` or `.yml` a map of ROS with its image.
 ///

@@ -1,11 +1,13 @@
 //! `adit export SITE LAYER`: a layer of the site for a geographic information system.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use adit_db::layer::{Layer, Shape};
+use adit_db::place::Place;
 use adit_db::relation::Relation;
 use adit_db::{Cell, Store, Tx};
+use adit_planners::lanes::Format;
 use serde_json::{Map, Value};
 
 use super::args::SiteArgs;
@@ -19,15 +21,23 @@ use crate::words::suggest::did_you_mean;
 /// The layer of areas, the table of what is said of each, and its columns that the layer has already.
 const AREAS: (&str, &str, [&str; 4]) = ("map_areas", "areas", ["area", "kind", "x", "y"]);
 
+/// The layer of routes.
+const ROUTES: &str = "map_routes";
+
 /// Writes a layer as GeoJSON, in the metres of the map.
 pub fn run(site: &SiteArgs, name: &str, to: &Path) -> Result<()> {
     if !to.extension().is_some_and(|end| end == "geojson" || end == "json") {
         let message = format!("{} is neither .geojson nor .json", to.display());
         return Err(Error::said(Code::LayerFile, message, None));
     }
+    if matches!(Format::of(to), Some(Format::Lif)) {
+        let message = format!("{} is the name of a lane graph's file, and `{name}` is a layer", to.display());
+        let help = Some("a layer goes into a .geojson or another .json".to_owned());
+        return Err(Error::said(Code::LayerFile, message, help));
+    }
     let knowledge = open(site)?;
     knowledge.spare_own(to)?;
-    let (layer, rows, said, others) =
+    let (layer, rows, said, others, apart) =
         Store::open_read_only(knowledge.database())?.snapshot(|tx| -> Result<_> {
             let layers = tx.layers()?;
             let is_meant = |layer: &&Layer| layer.name == name || layer.table == name;
@@ -40,7 +50,8 @@ pub fn run(site: &SiteArgs, name: &str, to: &Path) -> Result<()> {
                 }
             }
             let said = if layer.table == AREAS.0 { of_areas(tx)? } else { BTreeMap::new() };
-            Ok((layer, rows, said, others))
+            let apart = if layer.table == ROUTES { apart(tx, &rows)? } else { Vec::new() };
+            Ok((layer, rows, said, others, apart))
         })?;
     let features = features(&layer, &rows, &said)?;
     let count = features.len();
@@ -51,6 +62,10 @@ pub fn run(site: &SiteArgs, name: &str, to: &Path) -> Result<()> {
         return json(&serde_json::json!({"file": to, "features": count}));
     }
     line(&format!("{}: {} of {}", to.display(), counted(count, "feature"), layer.name));
+    if let [first, more @ ..] = apart.as_slice() {
+        let more = if more.is_empty() { String::new() } else { format!(" and {} more pairs", more.len()) };
+        remark(&format!("there is no route, and no line, {first}{more}"));
+    }
     if count == 0 {
         let others = match others.as_slice() {
             [] => "and so are all other layers".to_owned(),
@@ -59,6 +74,23 @@ pub fn run(site: &SiteArgs, name: &str, to: &Path) -> Result<()> {
         remark(&format!("`{}` is empty; {others}", layer.name));
     }
     Ok(())
+}
+
+/// The places between which there is no route, each as `from dock to lobby`.
+fn apart(tx: &mut Tx<'_>, routes: &Relation) -> Result<Vec<String>> {
+    let column = |name: &str| routes.columns.iter().find(|column| column.name == name);
+    let [Some(robots), Some(starts), Some(goals)] = ["robot", "start", "goal"].map(column) else {
+        return Ok(Vec::new());
+    };
+    let ends = |row: usize| [robots, starts, goals].map(|column| column.values[row].to_string());
+    let known: BTreeSet<[String; 3]> = (0..rows_of(routes)).map(ends).collect();
+    let places = tx.places()?;
+    let pairs = tx.starts()?.into_iter().flat_map(|start| {
+        let ends = |place: &Place| [start.robot.clone(), start.name.clone(), place.place.clone()];
+        places.iter().map(ends).collect::<Vec<_>>()
+    });
+    let is_apart = |ends: &[String; 3]| ends[1] != ends[2] && !known.contains(ends);
+    Ok(pairs.filter(is_apart).map(|[_, start, goal]| format!("from {start} to {goal}")).collect())
 }
 
 fn unknown(name: &str, layers: &[Layer]) -> Error {

@@ -20,6 +20,10 @@ const STEP_M: f64 = 0.02;
 /// Farther than this no wall is looked for, metres.
 const FURTHEST_M: f64 = 50.0;
 
+/// A robot takes itself to be at most so far off, metres; in so many directions the floor is looked for.
+const ASTRAY_M: f64 = 0.3;
+const TURNS: i32 = 32;
+
 /// A point, with a heading in degrees where one is said: `x,y` or `x,y@degrees`.
 pub(crate) fn split(text: &str) -> Option<(Point, Option<f64>)> {
     let (point, heading) = match text.split_once('@') {
@@ -50,10 +54,11 @@ pub(crate) fn at(world: &World, building: &Building, (at, heading): (Point, Opti
         let help = format!("say a heading, too, and what is ahead of it is closed: {place}@90");
         return Err(Error::said(Code::TellNoDoor, message, Some(help)));
     };
-    if !world.bounds.contains(at) || world.is_solid(at) {
-        let message = format!("{},{} is not on the floor", number(at.x), number(at.y));
+    let is_floor = |at: Point| world.bounds.contains(at) && !world.is_solid(at);
+    let Some(at) = beside(at, is_floor) else {
+        let message = format!("{},{} is not on the floor, nor is what is near", number(at.x), number(at.y));
         return Err(Error::said(Code::TellNoDoor, message, None));
-    }
+    };
     let ahead = Point::towards(heading.to_radians());
     let way = Segment::new(at, at + ahead * BEFORE_M);
     let met = doorways.filter(|doorway| doorway.crosses(&way) || doorway.distance(at) < STEP_M);
@@ -66,6 +71,17 @@ pub(crate) fn at(world: &World, building: &Building, (at, heading): (Point, Opti
     let [left, right] =
         [across, -across].map(|side| middle + side * free_along(world, building, middle, side));
     Ok(object(Segment::new(left, right)))
+}
+
+/// The point, or the nearest one on the floor: a robot's idea of where it is may lie a little within a wall.
+fn beside(at: Point, is_floor: impl Fn(Point) -> bool) -> Option<Point> {
+    if is_floor(at) {
+        return Some(at);
+    }
+    let around = |turn: i32| Point::towards(f64::from(turn) * std::f64::consts::TAU / f64::from(TURNS));
+    let rings = (1..).map(|ring| f64::from(ring) * STEP_M).take_while(|metres| *metres <= ASTRAY_M);
+    let points = rings.flat_map(|metres| (0..TURNS).map(move |turn| (metres, turn)));
+    points.map(|(metres, turn)| at + around(turn) * metres).find(|&point| is_floor(point))
 }
 
 pub(super) fn object(segment: Segment) -> Object {

@@ -104,7 +104,7 @@ impl Building {
         let [x0, y0, x1, y1] = *segment;
         let place = self.doorway_at(*segment).map(|doorway| self.place_of(doorway));
         let (x, y) = (f64::midpoint(x0, x1), f64::midpoint(y0, y1));
-        place.unwrap_or_else(|| format!("({x:.2}, {y:.2})"))
+        place.unwrap_or_else(|| format!("({x:.2}, {y:.2}), from ({x0:.2}, {y0:.2}) to ({x1:.2}, {y1:.2}),"))
     }
 
     /// What is closed now and was not before, or no longer is, in sentences.

@@ -51,13 +51,17 @@ pub fn lay_over(classes: &mut Facts, keys: &RowKeys, cells: &[TuningCell]) -> Re
         let (Some(table), Some(keys)) = (classes.get_mut(&class), keys.get(&class)) else { continue };
         let row = keys.iter().position(|key| *key == cell.key);
         let column = table.columns.iter_mut().find(|(name, _)| *name == cell.column);
-        match (row, column) {
-            (Some(row), Some((_, column))) => set(column, row, cell)?,
-            _ => notes.push(format!(
-                "the tuning `{}` sets {}.{}.{}, which is not there: it counts for nothing",
-                cell.tuning, cell.table, cell.key, cell.column
-            )),
+        if let (Some(row), Some((_, column))) = (row, column) {
+            set(column, row, cell)?;
+            continue;
         }
+        let ending = format!("/{}", cell.key);
+        let meant = keys.iter().find(|key| key.ends_with(&ending));
+        let help = meant.map_or(String::new(), |key| format!(" (a key is whole: `{key}`)"));
+        notes.push(format!(
+            "the tuning `{}` sets {}.{}.{}, which is not there: it counts for nothing{help}",
+            cell.tuning, cell.table, cell.key, cell.column
+        ));
     }
     Ok(notes)
 }

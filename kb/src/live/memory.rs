@@ -9,10 +9,10 @@ use adit_db::history::Author;
 use adit_db::room::Room;
 use adit_db::stale::Mark;
 
-use super::courses;
 use super::report::{Concluded, Report, Routes};
 use super::routes::{KeptRoutes, Renewed};
 use super::trees::{self, KeptSoFar, Plan};
+use super::{by_hand, courses};
 use crate::edit::react::{Recalled, make_tables};
 use crate::edit::{Done, Edit};
 use crate::error::Result;
@@ -139,6 +139,7 @@ impl Memory {
         inputs: &Arc<Inputs>,
         progress: &dyn Progress,
     ) -> Result<(Self, Report)> {
+        let by_hand = by_hand::remarks(tx, site)?;
         let starts = tx.starts()?;
         make_tables(tx, &inputs.rules)?;
         let told = site.told(tx, &inputs.rules)?;
@@ -159,6 +160,7 @@ impl Memory {
         let mut report = Report::new(before, weighed.as_ref(), &mut state, (routes, stages));
         report.concluded = kept.derivations().len();
         report.reacted = reacted;
+        report.notes.extend(by_hand);
         Ok((Self::of(state, kept, plan, basis), report))
     }
 

@@ -8,6 +8,7 @@ use std::sync::Arc;
 use adit_engine::{Dominated, Instead, Misspelt, Replaced, Rule, RuleBase, Standing, Unmet};
 use adit_planners::overlays::{AREAS, only_of_site, own};
 use adit_planners::planner::Planner;
+use adit_planners::read::ZONE_ID;
 use adit_planners::world::{Area, World};
 use miette::NamedSource;
 
@@ -116,8 +117,11 @@ pub fn unheard(rules: &RuleBase, world: &World) -> Vec<String> {
 pub fn unread_of_named(rules: &RuleBase, world: &World) -> Vec<String> {
     let read: BTreeSet<String> =
         rules.rules().iter().flat_map(Rule::reads).map(ToString::to_string).collect();
-    let is_unread =
-        |((class, property), _): &((&str, &str), Vec<&str>)| !read.contains(&format!("{class}.{property}"));
+    // the maker of a file of zones knows them by it
+    let is_said = |property: &str| property != ZONE_ID;
+    let is_unread = |((class, property), _): &((&str, &str), Vec<&str>)| {
+        is_said(property) && !read.contains(&format!("{class}.{property}"))
+    };
     let sentence = |((class, property), names): ((&str, &str), Vec<&str>)| {
         let mut known: Vec<&str> = own(class).chain(["rect", "polygon", "line", "kind", "name"]).collect();
         let of_class = read.iter().filter_map(|name| name.split_once('.')).filter(|(of, _)| *of == class);

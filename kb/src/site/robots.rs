@@ -69,6 +69,9 @@ impl RobotFile {
             tx.replace_loads(&self.loads)?;
         }
         let file = path.display();
+        if is_first && tx.site_value("generation")?.is_some() {
+            return Ok(vec![format!("the table robots was empty: it is as {file} has it again")]);
+        }
         let note = |what| {
             if again {
                 format!("the tables are as {file} has them again; they differed in {what}")

@@ -15,6 +15,9 @@ use super::value::{At, Read};
 use crate::geometry::Point;
 use crate::world::{Area, Property, World};
 
+/// What the file calls a zone, among its properties.
+pub const ZONE_ID: &str = "zone_id";
+
 const KEYS: [&str; 2] = ["file", "map"];
 
 /// What a zone may be. Vehicles ask before they enter those of the last two, and the site answers nobody.
@@ -188,7 +191,7 @@ fn area(
 ) -> Read<Located<Area>> {
     let kind = zone.need("zoneType")?;
     let zone_type = kind.text()?;
-    let mut further = vec![("zone_id".to_owned(), Property::Text(zone.need("zoneId")?.id()?))];
+    let mut further = vec![(ZONE_ID.to_owned(), Property::Text(zone.need("zoneId")?.id()?))];
     let mut says = |property: &str, value| further.push((property.to_owned(), value));
     let share = |key: &str| {
         let factor = zone.need(key)?;

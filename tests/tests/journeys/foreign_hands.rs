@@ -6,6 +6,8 @@ use std::process::Command;
 
 use adit_tests::{Ran, TestSite};
 
+const STARTER: &str = "map = \"map.toml\"\nrobots = \"robots.toml\"\n";
+
 /// A cleaning job deletes doors. Once, the rows that were left were taken for what the planner had made: every later
 /// build kept them, and every route avoided half of the doors.
 #[test]
@@ -127,4 +129,38 @@ fn a_folder_in_place_of_the_database() {
     for verb in ["build", "history", "doctor"] {
         site.adit(verb, &[]).expecting(2).complains(&["site.db", "cannot be opened"]);
     }
+}
+
+#[test]
+fn what_is_written_by_hand_and_counts_for_nothing_is_refused_or_said() {
+    let site = TestSite::example("starter").with("site.toml", STARTER).built();
+    for (sql, said) in [
+        ("UPDATE doorways SET closed = 1", "doorways follow from the map"),
+        ("DELETE FROM doorways", "doorways follow from the map"),
+        ("UPDATE spaces SET name = 'salon'", "spaces follow from the map"),
+        (
+            "INSERT INTO spaces (space, area, breadth, x, y, outline) VALUES (9, 1, 1, 1, 1, '[]')",
+            "spaces follow",
+        ),
+    ] {
+        let ran = Command::new("sqlite3").arg(site.path().join("site.db")).arg(sql).output();
+        let refused = String::from_utf8(ran.unwrap().stderr).unwrap();
+        assert!(refused.contains(said), "{sql}: {refused}");
+    }
+    site.outside_edit("INSERT INTO places VALUES ('sink', 3, 7)");
+    site.outside_edit("UPDATE rooms SET hardness = 50");
+    site.outside_edit("UPDATE robots SET state = 'KNEEL' WHERE state = 'SQUAT'");
+    site.outside_edit("INSERT INTO active_tunings VALUES ('nigth')");
+    site.adit("build", &[]).expecting(0).complains(&[
+        "another program wrote rows of rooms and places",
+        "changes has rows of states that robots has not: robot/SQUAT; they count for nothing",
+        "the tuning `nigth` is on and sets nothing",
+    ]);
+    assert_eq!(site.sqlite3("SELECT count(*) FROM rooms WHERE hardness = 50"), ["0"]);
+    site.outside_edit("INSERT INTO tuning_cells VALUES ('nigth', 'robots', 'STAND', 'hardness', 9)");
+    site.adit("build", &[]).expecting(0).complains(&["a key is whole: `robot/STAND`"]);
+    site.outside_edit("DELETE FROM robots");
+    site.adit("build", &[])
+        .expecting(0)
+        .complains(&["the table robots was empty: it is as", "robots.toml has it again"]);
 }

@@ -23,12 +23,13 @@ const STEPS: usize = 7;
 
 /// Everything that follows from the tables; what people wrote stays.
 const FORGET: &str = "
+    UPDATE writer SET quiet = 1;
     DELETE FROM doors; DELETE FROM rooms; DELETE FROM rules; DELETE FROM witnesses; DELETE FROM derivations;
     DELETE FROM prime_area_strips; DELETE FROM strips; DELETE FROM starts; DELETE FROM ends; DELETE FROM tree_rows;
     DELETE FROM places; DELETE FROM frames; DELETE FROM attachments; DELETE FROM told_states; DELETE FROM site_hours;
     DELETE FROM spaces; DELETE FROM doorways; DELETE FROM blocks; DELETE FROM areas; DELETE FROM named_doors; DELETE FROM area_rooms; DELETE FROM door_rooms;
     DELETE FROM area_outlines;
-    DELETE FROM site WHERE key NOT LIKE 'class.%';";
+    DELETE FROM site WHERE key NOT LIKE 'class.%'; UPDATE writer SET quiet = 0;";
 
 #[derive(Clone, Debug)]
 enum Step {
