@@ -38,7 +38,8 @@ function shown({ status, value, why, what, question, weighed }) {
     return [...told, asked];
   }
   const isOpen = answers.some((answer) => answer.value === null);
-  const found = status === 'known' ? [el('p', {}, el('b', { text: `${what} is ${inWords(value)}` })), el('ul', { class: 'plain' }, ...why.map((text) => el('li', { text })))] : [el('p', { text: isOpen ? `${what} is unknown as long as that is not known.` : `${what} is unknown, and nothing that can be asked would settle it.` })];
+  const reasons = el('ul', { class: 'plain' }, ...(isOpen ? [] : why).map((text) => el('li', { text })));
+  const found = status === 'known' ? [el('p', {}, el('b', { text: `${what} is ${inWords(value)}` })), reasons] : [el('p', { text: isOpen ? `${what} is unknown as long as that is not known.` : `${what} is unknown, and nothing that can be asked would settle it.` }), reasons];
   return [...told, ...found, el('p', { class: 'hint', text: `Rules weighed ${weighed} objects for it.` })];
 }
 

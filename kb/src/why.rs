@@ -222,11 +222,17 @@ impl State {
             if of.is_empty() { String::new() } else { format!("{word} {}", of.join(", ")) }
         };
         let value = found.value.as_ref().map_or("unknown".to_owned(), Value::to_string);
+        let is_missing = support.filter(|_| found.value.is_none());
+        let missing: Vec<String> = is_missing.map_or_else(Vec::new, |support| {
+            let read = support.witnesses.iter().filter_map(|one| Facts::of(self, support, one));
+            read.flat_map(|facts| facts.unknown(subject)).collect()
+        });
         let why = format!(
-            "{} {property} is {value}{by}{}{}",
+            "{} {property} is {value}{by}{}{}{}",
             subject.name,
             part(" with", &chosen),
-            part("; revised by", &quoted)
+            part("; revised by", &quoted),
+            part("; nothing says", &missing)
         );
         Some(Reasoned {
             property: property.to_owned(),

@@ -71,7 +71,10 @@ fn show(asked: &Asked, said: &[Said]) {
         _ if !not_known.is_empty() => {
             line(&format!("{} is unknown as long as this is: {}", asked.what, not_known.join(", ")));
         }
-        _ => line(&format!("{} is unknown, and nothing that can be asked would settle it", asked.what)),
+        _ => {
+            line(&format!("{} is unknown, and nothing that can be asked would settle it", asked.what));
+            asked.why.iter().for_each(|why| line(why));
+        }
     }
     if asked.weighed > 0 {
         line(&format!("rules weighed {} for it", counted(asked.weighed, "object")));

@@ -107,7 +107,7 @@ impl State {
                 asked.status = "asks";
                 asked.question = Some(Question { what, text: question.text });
             }
-            Answer::NotKnown => {}
+            Answer::NotKnown => asked.why = self.because(&of).unwrap_or_default(),
         }
         Ok(asked)
     }

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use adit_engine::{Support, Value, Witness};
 use serde::Serialize;
 
+use super::subject::Subject;
 use crate::state::State;
 use crate::words::number::number;
 
@@ -45,6 +46,20 @@ impl Facts {
             Some(known) => known.properties.extend(new.properties),
             None => all.push(new),
         }
+    }
+
+    /// What of it is unknown: `its hardness`, or of another object than is asked about `the hardness of robots SQUAT`.
+    pub(super) fn unknown(self, asked: &Subject) -> Vec<String> {
+        let is_asked = self.key == asked.key && self.class.eq_ignore_ascii_case(&asked.class);
+        let unknown = self.properties.into_iter().filter(|(_, value)| value.is_null());
+        let said = |property: String| {
+            if is_asked {
+                format!("its {property}")
+            } else {
+                format!("the {property} of {} {}", self.class.to_lowercase(), self.key)
+            }
+        };
+        unknown.map(|(property, _)| said(property)).collect()
     }
 
     /// ` (hardness 4, width 0.8)`; what is unknown is left out.

@@ -98,11 +98,23 @@ impl Subject {
                 Some(found(space.space.to_string(), name))
             }
             _ => {
-                let is_there = fork.knowledge.row(&class.to_uppercase(), key).is_some();
-                is_there.then(|| found(key.to_owned(), format!("{class} {key}")))
+                let key = whole_key(fork, &class.to_uppercase(), key)?;
+                let name = format!("{class} {key}");
+                Some(found(key, name))
             }
         }
     }
+}
+
+/// The whole key of the one object of a class that a key means, or its last part: `SQUAT`, of `robot/SQUAT`.
+fn whole_key(fork: &State, class: &str, key: &str) -> Option<String> {
+    if fork.knowledge.row(class, key).is_some() {
+        return Some(key.to_owned());
+    }
+    let ending = format!("/{key}");
+    let all = (0..fork.knowledge.len(class).unwrap_or(0)).filter_map(|row| fork.knowledge.key(class, row));
+    let mut meant = all.filter(|whole| whole.ends_with(&ending));
+    meant.next().filter(|_| meant.next().is_none())
 }
 
 /// `door` and `doors` both mean the table.

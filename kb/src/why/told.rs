@@ -3,12 +3,16 @@
 use adit_db::told::Told as Row;
 use adit_db::{Cell, Store};
 
+use super::cell;
 use super::subject::Subject;
 use crate::error::Result;
 use crate::state::State;
 
 /// Entries of the history that are looked through for the last edit of each cell.
 const ENTRIES: u32 = 5_000;
+
+/// Tables of ours that people edit.
+const EDITED: [&str; 3] = ["robots", "changes", "loads"];
 
 /// A value that is told.
 pub(super) struct Telling {
@@ -37,8 +41,9 @@ pub(super) fn told(state: &State, subject: &Subject) -> Result<Vec<Telling>> {
             found.retain(|known: &Telling| known.property != row.property);
             found.push(Telling { property: row.property, value: row.value, why });
         }
-        let is_own = tx.user_tables()?.iter().any(|known| known.name == table);
-        if is_own {
+        let is_table =
+            EDITED.contains(&table.as_str()) || tx.user_tables()?.iter().any(|of| of.name == table);
+        if is_table {
             for entry in tx.history_before(None, ENTRIES)? {
                 let Some(column) = entry.column.filter(|column| wanted(column)) else { continue };
                 let is_known = found.iter().any(|known| known.property == column);
@@ -47,6 +52,15 @@ pub(super) fn told(state: &State, subject: &Subject) -> Result<Vec<Telling>> {
                     let why = said(&subject.name, (&column, &value), "", (&entry.who, &entry.at, &entry.why));
                     found.push(Telling { property: column, value: entry.new, why });
                 }
+            }
+        }
+        if let Some(property) = subject.property.as_ref().filter(|_| found.is_empty()) {
+            let is_concluded = state.inputs.rules.gives(&class, property);
+            let value = state.knowledge.value(&class, &subject.key, property);
+            if let Some(value) = value.filter(|_| !is_concluded) {
+                let from = if is_table { format!("the table {table}") } else { "the map".to_owned() };
+                let why = format!("{} {property} is {value}, as {from} has it", subject.name);
+                found.push(Telling { property: property.clone(), value: cell(&value), why });
             }
         }
         Ok(found)

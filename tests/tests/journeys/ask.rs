@@ -126,3 +126,23 @@ fn of_very_many_objects_only_those_are_weighed_that_a_question_needs() {
     assert_eq!(next["question"]["text"], "Does car 9000 start?");
     service.end();
 }
+
+#[test]
+fn what_nothing_settles_says_what_is_missing() {
+    let rule = "rule \"gait\"\n    each b in FLOORS\n    then { b.gait = if b.hard > 2.0 { \"crawl\" } else { \"walk\" }; }\n";
+    let site = TestSite::example("shop").with("tables/floors.csv", "floor,hard\ngravel,3\ntiles,\n");
+    let site = site.with("rules/gait.rhai", rule).built();
+    let why = site.adit("why", &["floors.tiles.gait"]).expecting(0).stdout;
+    assert!(
+        why.contains("gait is unknown, by rule \"gait\"") && why.contains("nothing says its hard"),
+        "{why}"
+    );
+    let asked = site.adit("ask", &["floors.tiles.gait"]).expecting(1).stdout;
+    assert!(
+        asked.contains("nothing that can be asked would settle it") && asked.contains("its hard"),
+        "{asked}"
+    );
+    // what a table holds is not concluded, and is an answer all the same
+    let why = site.adit("why", &["floors.gravel.hard"]).expecting(0).stdout;
+    assert_eq!(why.trim(), "floors gravel hard is 3, as the table floors has it");
+}
