@@ -134,6 +134,22 @@ pub async fn witnesses(connection: &mut SqliteConnection) -> Result<Vec<Witness>
     Ok(rows.fetch_all(connection).await?.iter().map(read).collect::<sqlx::Result<_>>()?)
 }
 
+/// All values of classes that have no table of ours.
+pub async fn derivations(connection: &mut SqliteConnection) -> Result<Vec<Derivation>> {
+    let rows = sqlx::query("SELECT class, key, property, value, rule, witness FROM derivations");
+    let read = |row: &sqlx::sqlite::SqliteRow| -> Result<Derivation> {
+        Ok(Derivation {
+            class: row.try_get(0)?,
+            key: Cell::of(row, 1)?,
+            property: row.try_get(2)?,
+            value: Cell::of(row, 3)?,
+            rule: row.try_get(4)?,
+            witness: row.try_get(5)?,
+        })
+    };
+    rows.fetch_all(connection).await?.iter().map(read).collect()
+}
+
 /// Takes some witnesses away, by number, and adds others.
 pub async fn change_witnesses(
     connection: &mut SqliteConnection,
@@ -220,6 +236,11 @@ impl Tx<'_> {
     /// Takes some witnesses away, by number, and adds others.
     pub fn change_witnesses(&mut self, gone: &[i64], new: &[Witness]) -> Result<()> {
         self.run(async |connection| change_witnesses(connection, gone, new).await)
+    }
+
+    /// All values of classes that have no table of ours.
+    pub fn derivations(&mut self) -> Result<Vec<Derivation>> {
+        self.run(derivations)
     }
 
     /// Takes some values of classes that have no table of ours away, and adds others. A value that changed is among

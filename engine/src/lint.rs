@@ -1,6 +1,7 @@
 //! What the rules say though they were hardly meant to.
 
 mod contradiction;
+pub(crate) mod outvoted;
 pub(crate) mod table;
 mod texts;
 pub(crate) mod unused;

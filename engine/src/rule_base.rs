@@ -10,7 +10,7 @@ use rhai::Position;
 use crate::declared::Declarations;
 use crate::declared::build::{against_rules, declarations};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics, Severity};
-use crate::lint::lint;
+use crate::lint::{lint, outvoted};
 use crate::order::{Step, order};
 use crate::rule::{Action, Operator, PropertyName, Rule};
 use crate::script::desugar::desugar;
@@ -131,6 +131,16 @@ impl RuleBase {
     /// The properties that are hypotheses: true if one rule proves them, false if all refute them.
     pub fn hypotheses(&self) -> BTreeSet<PropertyName> {
         self.rules.iter().filter_map(Rule::hypothesis).collect()
+    }
+
+    /// What may be meant otherwise than it stands: rows of tables that never count, inputs for which there is none.
+    pub fn warnings(&self) -> &[Diagnostic] {
+        &self.warnings
+    }
+
+    /// The rules that give a property which every object is told.
+    pub fn outvoted(&self, is_told: impl Fn(&PropertyName) -> bool) -> Vec<Diagnostic> {
+        outvoted::lint(self, is_told)
     }
 
     pub fn concluded(&self) -> BTreeSet<&PropertyName> {

@@ -52,7 +52,7 @@ use crate::site::lint;
 use crate::site::over;
 use crate::site::rules::{self, Drafts, Rules};
 use crate::site::states;
-use crate::site::tables::TableFile;
+use crate::site::tables::{self as files, TableFile};
 use crate::site::{Rooms, Site};
 use crate::words::number::number;
 use crate::words::progress::Progress;
@@ -683,7 +683,7 @@ impl KnowledgeBase {
             store.snapshot(|tx| -> Result<_> { Ok((self.told(tx, &base)?, generation::read(tx)?)) })?
         } else {
             self.needs_course()?;
-            let of_map = self.tables_of_map().into_iter();
+            let of_map = self.tables_of_map().into_iter().chain(files::read(&self.site.tables())?);
             let mut classes = tables::unbuilt();
             classes.extend(of_map.map(|table| (table.name.to_uppercase(), table.class())));
             (Told { classes, ..Told::default() }, 0)

@@ -23,6 +23,15 @@ impl Column {
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
+
+    /// Whether the value of each object is known.
+    pub fn is_whole(&self) -> bool {
+        match self {
+            Self::Number(v) => v.iter().all(Option::is_some),
+            Self::Text(v) => v.iter().all(Option::is_some),
+            Self::Truth(v) => v.iter().all(Option::is_some),
+        }
+    }
 }
 
 impl FromIterator<f64> for Column {

@@ -72,6 +72,7 @@ pub fn show(knowledge: &KnowledgeBase, report: &Report) {
     }
     if !knowledge.site().has_rooms() {
         line(&format!("{name}: {} concluded (generation {generation})", counted(values, "value")));
+        reacted(report);
         return notes(report);
     }
     let routes = &report.routes;

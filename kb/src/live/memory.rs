@@ -140,6 +140,7 @@ impl Memory {
         progress: &dyn Progress,
     ) -> Result<(Self, Report)> {
         let by_hand = by_hand::remarks(tx, site)?;
+        let concluded = if generation::read(tx)? > 0 { Some(tx.derivations()?) } else { None };
         let starts = tx.starts()?;
         make_tables(tx, &inputs.rules)?;
         let told = site.told(tx, &inputs.rules)?;
@@ -155,11 +156,16 @@ impl Memory {
         let weighed = (!step.is_cut_anew).then(|| step.weighed.clone());
         let mut stages = vec![inputs.stage.clone()];
         stages.extend(step.stages.iter().cloned().chain(clock.stages));
+        let mut conclusions = concluded.map_or_else(Vec::new, |before| {
+            let (gone, new) = differing(&before, kept.derivations());
+            Concluded::between(&gone, &new)
+        });
+        conclusions.retain(|of| of.is_of_rules_alone(&state.knowledge, [&step.attached; 2]));
         state.accept(step);
         state.generation = generation;
         let mut report = Report::new(before, weighed.as_ref(), &mut state, (routes, stages));
         report.concluded = kept.derivations().len();
-        report.reacted = reacted;
+        (report.conclusions, report.reacted) = (conclusions, reacted);
         report.notes.extend(by_hand);
         Ok((Self::of(state, kept, plan, basis), report))
     }

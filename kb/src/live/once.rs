@@ -172,6 +172,8 @@ impl KnowledgeBase {
         problems.extend(report.gaps.into_iter().map(gap));
         problems.extend(lint::never_chosen(&report.dominated));
         let built = self.clone().with_database(Some(&scratch));
+        let told = Store::open_read_only(&scratch)?.snapshot(|tx| built.told(tx, &rules))?;
+        problems.extend(lint::doubtful(self.site(), self.rules.as_deref(), &rules, &told.classes));
         problems.extend(built.test()?.beneath.iter().flat_map(Beneath::findings));
         Ok((problems, look(&built)?))
     }

@@ -5,7 +5,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use adit_engine::{Dominated, Instead, Misspelt, Replaced, Rule, RuleBase, Standing, Unmet};
+use adit_engine::{Dominated, Instead, Misspelt, PropertyName, Replaced, Rule, RuleBase, Standing, Unmet};
+use adit_planners::facts::Facts;
 use adit_planners::overlays::{AREAS, only_of_site, own};
 use adit_planners::planner::Planner;
 use adit_planners::read::ZONE_ID;
@@ -96,6 +97,25 @@ pub fn ignored(
     let bases = rules::bases(site, instead);
     found.extend(bases.iter().filter_map(Base::folder).flat_map(not_read));
     found
+}
+
+/// What of a site's own rules never counts, and inputs for which their tables have no row. The shipped ones are looked at by
+/// their own tests.
+///
+/// # Arguments
+/// `told` are the tables as rules are told them.
+pub fn doubtful(site: &Site, instead: Option<&Path>, rules: &RuleBase, told: &Facts) -> Vec<Finding> {
+    let bases = rules::bases(site, instead);
+    let is_own = |file: &str| {
+        let folders = bases.iter().filter_map(Base::folder);
+        folders.into_iter().any(|folder| Path::new(file).starts_with(folder))
+    };
+    let is_told = |name: &PropertyName| {
+        let column = told.get(&name.class).and_then(|table| table.column(&name.property));
+        column.is_some_and(|column| !column.is_empty() && column.is_whole())
+    };
+    let all = rules.warnings().iter().cloned().chain(rules.outvoted(is_told));
+    all.filter(|warning| is_own(&warning.file)).map(Finding::from).collect()
 }
 
 /// Named areas or doors of the world of which no rule speaks, in sentences: they change nothing.
