@@ -5,6 +5,7 @@ pub(crate) mod failure;
 pub(crate) mod interpreter;
 pub(crate) mod limits;
 pub(crate) mod names;
+mod open;
 pub(crate) mod over;
 mod reaction;
 pub(crate) mod reactor;

@@ -10,12 +10,14 @@ use std::sync::Arc;
 
 use rhai::{AST, ASTFlags, Engine, Expr, ParseErrorType, Position, Stmt};
 
+use super::open;
 use super::reaction::told_by_functions;
 use super::source::{MAX_FILE_BYTES, SourceFile};
 use super::syntax::{Word, start_file, starts_item};
 use crate::declared::build::{ClassItem, PropertyItem};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::rule::{FileScope, Rule};
+use crate::suggest::nearest;
 use crate::table::plain;
 
 /// A rule whose names are not looked up yet, with what its version rests on: its own text, and what is outside of
@@ -72,7 +74,12 @@ fn compile(source: &SourceFile, reader: &Engine, problems: &mut Vec<Diagnostic>)
         Ok(ast) => Some(ast),
         Err(error) => {
             let message = syntax_message(error.err_type(), line_about(source.text(), error.position()));
-            problems.push(Diagnostic::error(Code::Syntax, &source.place(error.position()), message));
+            let opened = match error.err_type() {
+                ParseErrorType::MissingToken(token, _) => open::bracket(source.text(), token),
+                _ => None,
+            };
+            let place = source.place(opened.unwrap_or(error.position()));
+            problems.push(Diagnostic::error(Code::Syntax, &place, message));
             None
         }
     }
@@ -156,6 +163,9 @@ fn slip((before, after): (&str, &str)) -> Option<String> {
 fn syntax_message(error: &ParseErrorType, about: (&str, &str)) -> String {
     let before = about.0.split_whitespace().next().unwrap_or_default();
     match error {
+        ParseErrorType::Reserved(word) if word.starts_with('#') => {
+            "a comment begins with `//`, not with `#`".to_owned()
+        }
         ParseErrorType::Reserved(word) => {
             format!("`{word}` is a reserved word of the script language; use another name")
         }
@@ -166,7 +176,7 @@ fn syntax_message(error: &ParseErrorType, about: (&str, &str)) -> String {
             rhai::LexError::UnexpectedInput(text) if text.chars().all(is_curly_quote) => {
                 format!("`{text}` cannot stand here: a text stands between straight double quotes, `\"`")
             }
-            rhai::LexError::UnexpectedInput(text) => format!("`{text}` cannot stand here"),
+            rhai::LexError::UnexpectedInput(text) => cannot_stand(text, about.0),
             other => other.to_string(),
         },
         ParseErrorType::MissingSymbol(message) if message.contains("string") => {
@@ -177,12 +187,18 @@ fn syntax_message(error: &ParseErrorType, about: (&str, &str)) -> String {
                 format!("`{before}` belongs in a rule, which begins with `rule \"what it says\"`")
             }
             _ if about == ("", "") => "the file ends in the middle of a rule".to_owned(),
+            _ if about.1.starts_with('"') && about.0.split_whitespace().count() == 1 => no_item(before),
             _ => slip(about).unwrap_or_else(|| {
                 "a `;` belongs before this, to part it from the statement before".to_owned()
             }),
         },
         ParseErrorType::MissingToken(token, _) if token == "," => {
             "a `,` belongs before this, or the bracket before it is not closed".to_owned()
+        }
+        ParseErrorType::MissingToken(token, _)
+            if token == "]" && about.1.starts_with(',') && before.starts_with('[') =>
+        {
+            "a `,` is missing before this row: rows are parted by commas".to_owned()
         }
         ParseErrorType::MissingToken(token, _) if matches!(token.as_str(), "}" | "]" | ")") => {
             let opened = match token.as_str() {
@@ -195,6 +211,36 @@ fn syntax_message(error: &ParseErrorType, about: (&str, &str)) -> String {
         ParseErrorType::UnexpectedEOF => "the file ends in the middle of a rule".to_owned(),
         other => other.to_string(),
     }
+}
+
+/// That a sign is out of place, with how a cell of a table says it.
+fn cannot_stand(sign: &str, before: &str) -> String {
+    let cell = match sign {
+        ">" => "above(10)",
+        ">=" => "at_least(10)",
+        "<" => "below(10)",
+        "<=" => "at_most(10)",
+        "!=" => "not(10)",
+        _ => return format!("`{sign}` cannot stand here"),
+    };
+    if before.trim_end().ends_with(['[', ',']) {
+        return format!("`{sign}` cannot stand here: a cell of a table says `{cell}`");
+    }
+    format!("`{sign}` cannot stand here")
+}
+
+/// That a word begins nothing that a rule file holds.
+fn no_item(word: &str) -> String {
+    let words = Word::ALL.map(Word::as_str);
+    let help = match (word, nearest(word, words)) {
+        ("hypothesis", _) => "a rule says it, behind its conditions: `hypothesis object.property`".to_owned(),
+        ("first" | "unique" | "any" | "collect", _) => {
+            format!("a table begins with `table`: `table \"what it says\" {word}`")
+        }
+        (_, Some(meant)) => format!("did you mean `{meant}`?"),
+        _ => format!("it holds what begins with {} or fn", words.join(", ")),
+    };
+    format!("`{word}` begins nothing in a rule file: {help}")
 }
 
 /// Whether a sign is one of the quotes that text programs put in for straight ones.

@@ -197,7 +197,8 @@ impl Shape {
             return self.word("hypothesis", At::Hypothesis);
         }
         if self.clause.is_none() {
-            return wrong(format!("`each`, a variable, `in` and a class belong here, not `{ahead}`"));
+            let meant = elsewhere(ahead, end).map_or_else(String::new, |meant| format!(": {meant}"));
+            return wrong(format!("`each`, a variable, `in` and a class belong here, not `{ahead}`{meant}"));
         }
         let words = [
             "each",
@@ -229,6 +230,11 @@ fn elsewhere(ahead: &str, end: &str) -> Option<String> {
         "or" => "conditions are joined by `||`".to_owned(),
         "if" | "when" => "a condition begins with `where`".to_owned(),
         "," | ";" => "clauses follow each other without a sign".to_owned(),
+        "exists" | "any" => "that there is one says `some`".to_owned(),
+        "every" | "forall" => {
+            "that it holds of each says `all`, and what the rule is about `each`".to_owned()
+        }
+        "not" => "that there is none says `none`, and a condition `!`".to_owned(),
         "{" | "=>" | "->" | "set" if end == "then" => "what the rule does begins with `then`".to_owned(),
         _ => return None,
     })
