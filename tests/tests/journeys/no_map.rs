@@ -156,3 +156,32 @@ fn a_cell_that_names_a_row_of_another_table_that_is_not_there_is_noted() {
     let mended = site.adit("tune", &["orders", "9", "product", "tea"]).expecting(0).stderr;
     assert_eq!(mended, "");
 }
+
+#[test]
+fn tests_of_rules_run_before_anything_is_built() {
+    let site = shop();
+    let tested = site.adit("test", &[]).expecting(0).stdout;
+    assert!(tested.contains("1 test, which holds"), "{tested}");
+}
+
+#[test]
+fn a_build_says_what_rules_told_and_conclude_otherwise() {
+    let site = shop().built();
+    let rule = |factor: &str| {
+        format!("rule \"twice\" each p in PRODUCTS then {{ p.price2 = p.price * {factor}; }}\n")
+    };
+    site.write("rules/twice.rhai", rule("2.0"));
+    let built = site.adit("build", &["--json"]).expecting(0).json();
+    let conclusions = built["conclusions"].as_array().unwrap();
+    assert!(conclusions.iter().all(|of| of["property"] == "price2" && of["old"].is_null()), "{built}");
+    site.write("rules/twice.rhai", rule("3.0"));
+    let built = site.adit("build", &["--json"]).expecting(0).json();
+    let conclusions = built["conclusions"].as_array().unwrap();
+    assert!(!conclusions.is_empty() && conclusions.iter().all(|of| !of["old"].is_null()), "{built}");
+    site.write(
+        "rules/sell.rhai",
+        "on \"sell\" each p in PRODUCTS where p.stock > 100 then { p.stock = 90; }\n",
+    );
+    let built = site.adit("build", &[]).expecting(0).stdout;
+    assert!(built.contains("sell") && built.contains("→ 90"), "{built}");
+}

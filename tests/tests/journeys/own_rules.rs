@@ -333,3 +333,23 @@ fn an_edit_says_which_rules_were_edited_since_the_build_and_count_with_it() {
     let gone = tune("8");
     assert!(gone.contains("\"draughty\", which is gone"), "{gone}");
 }
+
+#[test]
+fn check_names_rows_and_rules_that_never_count_and_inputs_without_a_row() {
+    let rules = "table \"grade\" first\n    each p in PRODUCTS\n    given [ p.price ]\n    set [ p.grade ]\n\
+        \x20   rows [ [ at_least(10.0), \"dear\" ], [ at_least(20.0), \"very dear\" ] ]\n\
+        rule \"all the same\" priority 3 each p in PRODUCTS then { p.price = 1.0; }\n";
+    let site = TestSite::example("shop").with("rules/grade.rhai", rules).built();
+    let checked = said(&site.adit("check", &[]));
+    for words in [
+        "row 2 is never reached",
+        "no row matches where p.price is below 10",
+        "what rule \"all the same\" gives PRODUCTS.price never counts: each object is told one",
+    ] {
+        assert!(checked.contains(words), "{words}: {checked}");
+    }
+    // a rule that says so is heard before the table
+    site.write("rules/grade.rhai", "property PRODUCTS.price from rule, table;\n".to_owned() + rules);
+    let checked = said(&site.adit("check", &[]));
+    assert!(!checked.contains("never counts"), "{checked}");
+}
