@@ -20,6 +20,7 @@ use crate::graph::pairs::PlaceCosts;
 use crate::graph::{End, SiteGraph};
 use crate::knowledge::KnowledgeBase;
 use crate::knowledge::told::Attached;
+use crate::site::lint;
 use crate::state::before::Before;
 use crate::state::{State, Weighed};
 use crate::words::number::number;
@@ -405,6 +406,7 @@ impl Report {
         let idle = state.told.idle_hours(&state.knowledge);
         let mut notes: Vec<String> =
             inputs.notes.iter().cloned().chain(state.told.notes.iter().cloned()).chain(idle).collect();
+        notes.extend(lint::unread_marks(&inputs.rules, &state.told.classes));
         notes.extend(misspelt.iter().map(ToString::to_string));
         notes.extend(unmet.iter().take(NOTED).map(ToString::to_string));
         let more = unmet.len().saturating_sub(NOTED);

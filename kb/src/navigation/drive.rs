@@ -101,8 +101,7 @@ impl Reader<'_> {
         };
         let found = point.or_else(with_heading);
         if found.is_none() {
-            let places = self.floor.names().join(", ");
-            let expected = format!("expected a place ({places}) or x,y, and degrees if need be");
+            let expected = format!("expected {} or x,y, and degrees if need be", self.place());
             self.wrong(span, format!("found `{rest}`, {expected}"));
         }
         found.map(|(at, degrees)| Pose { at, heading: degrees.to_radians() })
@@ -144,13 +143,21 @@ impl Reader<'_> {
         number
     }
 
+    /// What a place may be, as it goes on from `expected`.
+    fn place(&self) -> String {
+        match self.floor.names().as_slice() {
+            [] => "a point (the plan has no place)".to_owned(),
+            names => format!("a place ({})", names.join(", ")),
+        }
+    }
+
     fn goal(&mut self, rest: &str, span: &Range<usize>) -> Option<Point> {
         let found = self.floor.point(rest).ok();
         if found.is_none() {
             let message = if self.named.iter().any(|name| name == rest) {
                 format!("`{rest}` is named in this drive; where it is is known to the next one")
             } else {
-                format!("found `{rest}`, expected a place ({}) or x,y", self.floor.names().join(", "))
+                format!("found `{rest}`, expected {} or x,y", self.place())
             };
             self.wrong(span, message);
         }

@@ -158,6 +158,25 @@ pub fn unread_of_named(rules: &RuleBase, world: &World) -> Vec<String> {
     only_of_site(world).into_iter().filter(is_unread).map(sentence).collect()
 }
 
+/// What a floor plan says of its doorways and regions and no rule reads, in sentences.
+pub fn unread_marks(rules: &RuleBase, told: &Facts) -> Vec<String> {
+    let Some(marks) = told.get("MARKS") else { return Vec::new() };
+    let (Ok(what), Ok(properties)) = (marks.texts("what"), marks.texts("property")) else {
+        return Vec::new();
+    };
+    let read: BTreeSet<&str> =
+        rules.rules().iter().flat_map(Rule::reads).map(|name| name.property.as_str()).collect();
+    let said = what.iter().flatten().zip(properties.iter().flatten());
+    let unread: BTreeSet<(&String, &String)> =
+        said.filter(|(_, property)| !read.contains(property.as_str())).collect();
+    let sentence = |(what, property): (&String, &String)| {
+        let help = did_you_mean(property, read.iter().copied());
+        let help = help.map_or_else(String::new, |help| format!(" ({help})"));
+        format!("no rule reads `{property}` of a {what}: it changes nothing{help}")
+    };
+    unread.into_iter().map(sentence).collect()
+}
+
 /// Kinds of areas of which no rule speaks, where nothing else of the area is read: a slip of the pen, mostly. Where rules compare
 /// kinds with what tables hold, nobody knows beforehand which there are.
 pub fn unknown_kinds(rules: &RuleBase, world: &World) -> Vec<String> {

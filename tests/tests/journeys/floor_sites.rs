@@ -232,3 +232,20 @@ fn what_a_robot_meets_is_told_and_rules_that_react_change_where_all_go() {
         .unwrap();
     Ran::new(&alone).expecting(2).complains(&["is a map alone"]);
 }
+
+#[test]
+fn what_a_plan_says_of_doorways_and_no_rule_reads_is_told() {
+    let site = TestSite::empty();
+    for file in ["flat.toml", "flat.json"] {
+        let text = std::fs::read_to_string(world().with_file_name(file)).unwrap();
+        let slip = "\n[[doorway]]\nat = [6.5, 4.0]\nsqueeks = true\n";
+        site.write(file, if file == "flat.toml" { text + slip } else { text });
+    }
+    let file = site.path().join("flat.toml");
+    let ran = Command::new(adit()).arg("check").arg(&file).output().unwrap();
+    let said = String::from_utf8(ran.stderr).unwrap().split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(
+        said.contains("no rule reads `squeeks` of a doorway: it changes nothing (did you mean `squeaks`?)"),
+        "{said}"
+    );
+}
