@@ -164,8 +164,9 @@ impl Diagnostic {
         self
     }
 
+    /// The same as a warning.
     #[must_use]
-    pub(crate) fn warning(mut self) -> Self {
+    pub fn warning(mut self) -> Self {
         self.severity = Severity::Warning;
         self
     }

@@ -140,7 +140,7 @@ impl RuleBase {
 
     /// The rules that give a property which every object is told.
     pub fn outvoted(&self, is_told: impl Fn(&PropertyName) -> bool) -> Vec<Diagnostic> {
-        outvoted::lint(self, is_told)
+        outvoted::lint(&self.rules, &self.declared, is_told)
     }
 
     pub fn concluded(&self) -> BTreeSet<&PropertyName> {

@@ -125,6 +125,9 @@ pub struct Beneath {
     pub trouble: Option<Error>,
 }
 
+/// So many tests beneath that do not hold are named.
+const NAMED: usize = 3;
+
 impl Beneath {
     /// The tests that do not hold with the rules above them, in sentences.
     pub(crate) fn findings(&self) -> Vec<Finding> {
@@ -135,11 +138,14 @@ impl Beneath {
                 "with these rules the test \"{test}\" of {base} ({file}, line {line}) does not hold"
             ))
         });
+        let failed = failed.collect::<Vec<_>>();
+        let more = failed.len().saturating_sub(NAMED);
+        let more = (more > 0).then(|| Finding::note(format!("nor do {more} more tests of {base}")));
         let trouble = self.trouble.iter().flat_map(Error::problems);
         let trouble = trouble.map(|problem| {
             Finding::note(format!("with these rules the tests of {base} cannot be run: {problem}"))
         });
-        failed.chain(trouble).collect()
+        failed.into_iter().take(NAMED).chain(more).chain(trouble).collect()
     }
 }
 

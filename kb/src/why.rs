@@ -91,7 +91,7 @@ impl State {
         }
         let subject = Subject::find(self, what)?;
         let told = told::told(self, &subject)?;
-        let (mut conclusions, facts) = match self.conclusions(&subject) {
+        let (mut conclusions, mut facts) = match self.conclusions(&subject) {
             Ok(found) => found,
             Err(_) if !told.is_empty() => (Vec::new(), Vec::new()),
             Err(error) => return Err(error),
@@ -116,10 +116,25 @@ impl State {
             why,
             ..none.clone()
         }));
+        if let Some(doorway) = self.doorway_called(&subject) {
+            let (more, read) = self.conclusions(&doorway)?;
+            conclusions.extend(more);
+            facts.extend(read);
+        }
         let object = format!("{}.{}", subject.class, subject.key);
         let (hindered, easier) = self.easier_there(&subject);
         let (generation, name) = (self.generation, subject.name);
         Ok(Why { generation, object, name, conclusions, facts, hindered, easier })
+    }
+
+    /// The doorway that is drawn where a named door is: what is concluded of it is so of the door.
+    fn doorway_called(&self, subject: &Subject) -> Option<Subject> {
+        let building = &self.graph().building;
+        let name = Some(subject.key.as_str())
+            .filter(|_| subject.class == "named_doors" && subject.property.is_none())?;
+        let doorway = building.doorways.iter().find(|of| of.called.as_deref() == Some(name))?;
+        let (class, key) = ("doorways".to_owned(), doorway.doorway.to_string());
+        Some(Subject { class, key, property: None, name: name.to_owned() })
     }
 
     /// What keeps easier states out in the middle of a room.

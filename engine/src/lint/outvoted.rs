@@ -1,17 +1,21 @@
 //! Rules whose values never count, since the property is told of every object.
 
+use crate::declared::Declarations;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::rule::{Action, PropertyName};
-use crate::rule_base::RuleBase;
+use crate::rule::{Action, PropertyName, Rule};
 
-pub(crate) fn lint(base: &RuleBase, is_told: impl Fn(&PropertyName) -> bool) -> Vec<Diagnostic> {
+pub(crate) fn lint(
+    rules: &[Rule],
+    declared: &Declarations,
+    is_told: impl Fn(&PropertyName) -> bool,
+) -> Vec<Diagnostic> {
     let mut found = vec![];
-    for rule in &base.rules {
+    for rule in rules {
         if !matches!(rule.action, Action::Conclude { .. } | Action::Table(_)) {
             continue;
         }
         for (name, position) in &rule.sets {
-            if base.declared.rules_first(name) || !is_told(name) {
+            if declared.rules_first(name) || !is_told(name) {
                 continue;
             }
             let message =

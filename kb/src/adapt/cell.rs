@@ -80,6 +80,15 @@ impl RobotKind {
         }
     }
 
+    /// What people call a number of a configuration, from 1.
+    pub fn coordinate(&self, number: usize) -> String {
+        match (self, number) {
+            (Self::Point(_), 1) => "x".to_owned(),
+            (Self::Point(_), _) => "y".to_owned(),
+            _ => format!("joint {number}"),
+        }
+    }
+
     /// Base and joints of an arm, or the one place of a disc.
     pub fn joints(&self, at: &[f64]) -> Vec<Point> {
         match self {
@@ -136,12 +145,16 @@ impl Cell {
                     .iter()
                     .map(|limit| format!("{} to {}", number(limit.low), number(limit.high)))
                     .collect();
-                let message = format!(
-                    "`{text}` has {} numbers and is no configuration; expected {} within {}",
-                    numbers.len(),
-                    limits.len(),
-                    limits.join(" and ")
-                );
+                let within = limits.join(" and ");
+                let message = if numbers.len() == limits.len() {
+                    format!("`{text}` lies outside of the robot's limits: {within}")
+                } else {
+                    format!(
+                        "`{text}` has {} numbers, and a configuration {}, within {within}",
+                        numbers.len(),
+                        limits.len()
+                    )
+                };
                 Err(Error::said(Code::PlanConfiguration, message, None))
             }
             None => {

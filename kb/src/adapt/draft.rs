@@ -77,20 +77,7 @@ impl Draft<'_> {
                     ArmError::Limits { .. } | ArmError::Limit(..) => (Code::Impossible, &draft.limits.span),
                     _ => (Code::NotPositive, &draft.lengths.span),
                 };
-                let message = match error {
-                    // People count from 1.
-                    ArmError::LinkLength(link, length) => {
-                        format!("link {} is {length} m long, and must be longer than 0", link + 1)
-                    }
-                    ArmError::Limit(joint, low, high) => {
-                        format!(
-                            "joint {} goes from {low} to {high}, and must go from a lower to a higher angle",
-                            joint + 1
-                        )
-                    }
-                    other => other.to_string(),
-                };
-                self.refuse(code, span, message);
+                self.refuse(code, span, error.to_string());
                 None
             }
         }
@@ -183,7 +170,8 @@ impl Draft<'_> {
         robot: Option<&RobotKind>,
         at: &Located<Vec<f64>>,
     ) -> Option<Configuration> {
-        let robot = robot?.robot();
+        let kind = robot?;
+        let robot = kind.robot();
         if robot.admits(&at.value) {
             return Some(at.value.clone());
         }
@@ -194,8 +182,9 @@ impl Draft<'_> {
             outside.map_or_else(
                 || format!("{what} is no configuration"),
                 |(joint, (q, limit))| {
+                    let joint = kind.coordinate(joint);
                     format!(
-                        "{what} has joint {joint} at {q}, outside of its limits {} to {}",
+                        "{what} has {joint} at {q}, outside of its limits {} to {}",
                         limit.low, limit.high
                     )
                 },

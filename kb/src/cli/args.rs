@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 use std::time::Duration;
 
+use adit_db::history::Author;
 use clap::Args;
 
 use crate::error::{Code, Error, Result};
@@ -141,4 +142,10 @@ pub fn heading(degrees: f64) -> Result<f64> {
     }
     let message = format!("--heading {degrees:?} is no heading; expected degrees from -360 to 360");
     Err(Error::said(Code::SimulateHeading, message, None))
+}
+
+/// Whoever runs the program.
+pub fn author(why: &str) -> Author {
+    let who = std::env::var("USER").or_else(|_| std::env::var("LOGNAME"));
+    Author { who: who.unwrap_or_else(|_| "cli".to_owned()), why: why.to_owned() }
 }

@@ -4,10 +4,9 @@ use std::io::{BufRead, stdin};
 
 use clap::Args;
 
-use super::args::SiteArgs;
+use super::args::{SiteArgs, author};
 use super::build::open;
 use super::output::{json, line};
-use super::tune::author;
 use crate::edit::{Edit, Tell};
 use crate::error::{Code, Error, Result};
 use crate::live::Live;

@@ -3,9 +3,8 @@
 use adit_db::Cell;
 use clap::Args;
 
-use super::args::SiteArgs;
+use super::args::{SiteArgs, author};
 use super::output::{json, line, maybe, number, remark, time};
-use super::tune::author;
 use crate::error::Result;
 use crate::knowledge::KnowledgeBase;
 use crate::live::report::{Change, Concluded, Remeasured, Report, RouteChange};

@@ -5,10 +5,9 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::args::SiteArgs;
+use super::args::{SiteArgs, author};
 use super::build::open;
 use super::output::{either, line, remark, table};
-use super::tune::author;
 use crate::error::{Error, Result};
 use crate::fit::{Fit, Scale, rows_of_csv};
 use crate::words::number::number;

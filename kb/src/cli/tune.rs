@@ -1,10 +1,9 @@
 //! `adit tune`, `adit history` and `adit undo`.
 
 use adit_db::Store;
-use adit_db::history::Author;
 use clap::Args;
 
-use super::args::SiteArgs;
+use super::args::{SiteArgs, author};
 use super::build::{changes, notes, open};
 use super::output::{json, line, table};
 use crate::edit::{Edit, changed, subject};
@@ -85,12 +84,6 @@ fn edit_of(args: &TuneArgs) -> Result<Edit> {
             Some("adit tune my-site robots SQUAT hardness 3".to_owned()),
         )),
     }
-}
-
-/// Whoever runs the program.
-pub fn author(why: &str) -> Author {
-    let who = std::env::var("USER").or_else(|_| std::env::var("LOGNAME"));
-    Author { who: who.unwrap_or_else(|_| "cli".to_owned()), why: why.to_owned() }
 }
 
 /// Carries out an edit, or only shows what it would change, and prints that.

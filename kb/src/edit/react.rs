@@ -49,7 +49,7 @@ impl State {
         }
         let known = tx.carried_out()?;
         let mut carried_out: Vec<CarriedOut> = known.iter().map(of_kept).collect();
-        let (mut said, mut notes) = (Vec::new(), BTreeSet::new());
+        let (mut said, mut notes, mut failed) = (Vec::new(), BTreeSet::new(), Vec::new());
         for round in 0.. {
             self.tell_routes(rules, &step)?;
             self.knowledge.resume(rules, &carried_out);
@@ -63,7 +63,7 @@ impl State {
             let mut fork = self.knowledge.fork();
             fork.resume(rules, &carried_out);
             let run = fork.react(rules);
-            notes.extend(run.diagnostics.iter().map(note));
+            failed.extend(run.diagnostics.iter().filter(|problem| notes.insert(note(problem))).cloned());
             carried_out = fork.carried_out(rules);
             let mut tables = Tables::of(self, tx)?;
             for firing in &run.firings {
@@ -81,7 +81,7 @@ impl State {
             tx.replace_carried_out(&now)?;
         }
         step.told.notes.extend(notes);
-        step.reacted = said;
+        (step.reacted, step.failed) = (said, failed);
         Ok(step)
     }
 

@@ -148,7 +148,7 @@ impl Memory {
         let graph = Arc::clone(state.graph());
         let before = Before { graph: &graph, starts: &starts };
         let mut step = state.step_and_react(tx, told, Recalled::OfLastBuild, progress)?;
-        let reacted = std::mem::take(&mut step.reacted);
+        let (reacted, failed) = (std::mem::take(&mut step.reacted), std::mem::take(&mut step.failed));
         let mut clock = Stopwatch::new();
         let basis = Basis::new(site.site(), &inputs.world, &inputs.rules);
         let (kept, plan, routes, generation) =
@@ -165,7 +165,7 @@ impl Memory {
         state.generation = generation;
         let mut report = Report::new(before, weighed.as_ref(), &mut state, (routes, stages));
         report.concluded = kept.derivations().len();
-        (report.conclusions, report.reacted) = (conclusions, reacted);
+        (report.conclusions, report.reacted, report.failed) = (conclusions, reacted, failed);
         report.notes.extend(by_hand);
         Ok((Self::of(state, kept, plan, basis), report))
     }

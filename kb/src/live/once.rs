@@ -163,7 +163,12 @@ impl KnowledgeBase {
         problems.extend(lint::unmet(&report.unmet));
         let said: Vec<String> = problems.iter().map(ToString::to_string).collect();
         problems.extend(changed);
-        let notes = report.notes.into_iter().filter(|note| !said.contains(note));
+        let is_endless = report.failed.iter().any(|problem| problem.code == adit_engine::Code::Loop);
+        let failed: Vec<String> = report.failed.iter().map(|problem| problem.message.clone()).collect();
+        problems.extend(report.failed.into_iter().map(|problem| Finding::from(problem.warning())));
+        let is_said =
+            |note: &String| said.contains(note) || failed.iter().any(|of| note.starts_with(of.as_str()));
+        let notes = report.notes.into_iter().filter(|note| !is_said(note));
         problems.extend(notes.map(Finding::note));
         let help = "tell it again where it now is, or take it back with `adit tell SITE --retract ID`";
         let lost = |lost| Finding::warning(Code::TellLost, lost, Some(help.to_owned()));
@@ -174,7 +179,10 @@ impl KnowledgeBase {
         let built = self.clone().with_database(Some(&scratch));
         let told = Store::open_read_only(&scratch)?.snapshot(|tx| built.told(tx, &rules))?;
         problems.extend(lint::doubtful(self.site(), self.rules.as_deref(), &rules, &told.classes));
-        problems.extend(built.test()?.beneath.iter().flat_map(Beneath::findings));
+        // each of them would come to no end as well
+        if !is_endless {
+            problems.extend(built.test()?.beneath.iter().flat_map(Beneath::findings));
+        }
         Ok((problems, look(&built)?))
     }
 

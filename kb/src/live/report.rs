@@ -10,7 +10,9 @@ use adit_db::room::Room;
 use adit_db::schema::Row;
 use adit_db::tree::{Start, TreeRow};
 use adit_db::weight::Weight;
-use adit_engine::{Conclusions, Conflict, Dominated, KnowledgeBase as Inference, Misspelt, Unmet};
+use adit_engine::{
+    Conclusions, Conflict, Diagnostic, Dominated, KnowledgeBase as Inference, Misspelt, Unmet,
+};
 use adit_planners::read::MapReport;
 use adit_planners::routes::{DoorIndex, RoomIndex};
 use serde::Serialize;
@@ -279,6 +281,8 @@ pub struct Report {
     pub course: Option<String>,
     /// What rules that react told, in sentences.
     pub reacted: Vec<String>,
+    /// What they could not tell, or where they came to no end; in the notes, too.
+    pub failed: Vec<Diagnostic>,
     /// What is closed now and was not before, or no longer is, in sentences.
     pub closings: Vec<String>,
     /// Whether rooms were cut anew.
@@ -431,6 +435,7 @@ impl Report {
             course: state.courses.as_ref().map(|courses| courses.summary()),
             conclusions: Vec::new(),
             reacted: Vec::new(),
+            failed: Vec::new(),
             closings: graph.building.turned(&before.graph.building),
             cut_anew: weighed.is_none(),
             routes,

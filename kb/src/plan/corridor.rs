@@ -327,7 +327,8 @@ fn end(
     let Located { value: [x, y], span } = fields.numbers::<2>(key, problems)?;
     let point = Point::new(x, y);
     if corridors.is_some_and(|corridors| corridors.at(point).next().is_none()) {
-        let message = format!("the {key} ({x}, {y}) lies in no channel");
+        let what = if key == "at" { "place" } else { key };
+        let message = format!("the {what} ({x}, {y}) lies in no channel");
         problems.push(fields.text.problem(Code::PlaceInWall, &span, message));
         return None;
     }

@@ -56,6 +56,8 @@ pub struct Step {
     pub courses: Option<Arc<Courses>>,
     /// What rules that react told, in sentences.
     pub reacted: Vec<String>,
+    /// What they could not tell, or where they came to no end.
+    pub failed: Vec<Diagnostic>,
     gauge: Option<Arc<Gauge>>,
 }
 
@@ -165,6 +167,7 @@ impl State {
             stages,
             courses,
             reacted: Vec::new(),
+            failed: Vec::new(),
             gauge,
         })
     }

@@ -22,7 +22,7 @@ pub struct Arm {
 pub enum ArmError {
     #[error("an arm needs a link at least")]
     NoLinks,
-    #[error("link {0} is {1} m long, and must be longer than 0")]
+    #[error("link {link} is {1} m long, and must be longer than 0", link = .0 + 1)]
     LinkLength(usize, f64),
     #[error("the radius of the links is {0} m, and must be 0 at least")]
     Radius(f64),
@@ -30,7 +30,7 @@ pub enum ArmError {
     Base,
     #[error("there are {limits} joint limits for {links} links")]
     Limits { limits: usize, links: usize },
-    #[error("joint {0} goes from {1} to {2} rad, and must go from a lower to a higher angle")]
+    #[error("joint {joint} goes from {1} to {2} rad, and must go from a lower to a higher angle", joint = .0 + 1)]
     Limit(usize, f64, f64),
 }
 

@@ -63,7 +63,7 @@ fn a_configuration_is_an_end_and_what_is_in_the_way_is_said() {
     let route = site.adit("route", &["home", "2.8,-0.5", "--json"]).expecting(0).json();
     assert_eq!(route["status"], "ok", "{route}");
     assert_eq!(route["waypoints"][0]["state"], "1.6, 0", "{route}");
-    site.adit("route", &["home", "9,9"]).expecting(2).complains(&["is no configuration"]);
+    site.adit("route", &["home", "9,9"]).expecting(2).complains(&["lies outside of the robot's limits"]);
     site.adit("route", &["home", "lode"]).expecting(2).complains(&["`lode` is no goal"]);
     // the post is set upon the goal at the press
     let blocked = site.adit("tune", &["objects", "post", "x", "0.9", "--dry-run"]).expecting(0).stdout;

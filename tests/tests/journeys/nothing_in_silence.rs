@@ -137,6 +137,14 @@ fn a_space_without_a_doorway_is_not_said_to_be_closed() {
 }
 
 #[test]
+fn why_a_named_door_is_shut_is_why_its_doorway_is() {
+    let rule = "rule \"shut\" priority 3 each d in DOORWAYS then { d.closed = true; }\n";
+    let site = two_rooms().with("rules/shut.rhai", rule).built();
+    let why = site.adit("why", &["middle"]).expecting(0).stdout;
+    assert!(why.contains("middle closed is true, by rule \"shut\""), "{why}");
+}
+
+#[test]
 fn an_errand_that_keeps_away_names_no_fact_that_there_is_not() {
     let site = two_rooms().built();
     let said = site.adit("route", &["home", "window", "--avoid", "middle"]).expecting(1).stdout;

@@ -209,3 +209,14 @@ fn what_is_told_of_a_table_of_ones_own_is_taken_back_by_a_rule_like_anything_els
     assert_eq!(site.sqlite3("SELECT at FROM carts"), ["dock"]);
     assert_eq!(site.sqlite3("SELECT property FROM told ORDER BY id"), ["at", "stuck"]);
 }
+
+#[test]
+fn check_says_of_a_rule_that_tells_for_ever_that_something_is_wrong_and_no_more() {
+    let rule = "property ROOMS.spill from table, default 0.0;\n\
+        on \"more\" each r in ROOMS where r.spill < 1000000.0 then { r.spill = r.spill + 1.0; }\n";
+    let site = TestSite::example("paper").with("rules/more.rhai", rule);
+    let checked = site.adit("check", &[]);
+    checked.complains(&["rule \"more\" fires again and again", "more.rhai:2:4"]);
+    assert!(checked.stdout.contains("something looks wrong"), "{}", checked.stdout);
+    assert!(!checked.stderr.contains("does not hold"), "{}", checked.stderr);
+}

@@ -40,13 +40,46 @@ pub fn instead(
         format!("door {} at ({x:.2}, {y:.2})", graph[door].door)
     });
     if !present.0.metres.is_empty() || !other.0.metres.is_empty() {
-        return (format!("{} instead of {}", by_metres(other), by_metres(present)), at);
+        let (theirs, mine) = (by_metres(other), by_metres(present));
+        if theirs == mine {
+            return (format!("{theirs} {}", elsewhere(graph, present.0, other.0)), at);
+        }
+        return (format!("{theirs} instead of {mine}"), at);
     }
     let stretch = |(path, actions): (&Path, &[String])| {
         let within = shared..path.doors.len() - ending;
         by_doors(graph, &path.doors[within.clone()], &actions[within])
     };
     (format!("{} instead of {}", stretch(other), stretch(present)), at)
+}
+
+/// By what another way on which as much of the same is done differs: `through laundry instead of corridor 15`.
+fn elsewhere(graph: &SiteGraph, present: &Path, other: &Path) -> String {
+    let spaces = |path: &Path| {
+        let mut names: Vec<String> = Vec::new();
+        for (room, _) in path.metres.iter().filter(|(_, metres)| *metres > 0.0) {
+            let name = graph[*room].space.and_then(|space| graph.building.space(space));
+            names.extend(name.filter(|name| !names.contains(name)));
+        }
+        names
+    };
+    let (mine, theirs) = (spaces(present), spaces(other));
+    let only = |of: &[String], others: &[String]| {
+        let only: Vec<String> =
+            of.iter().filter(|name| !others.contains(name)).take(NAMED).cloned().collect();
+        listed(&only)
+    };
+    let (new, gone) = (only(&theirs, &mine), only(&mine, &theirs));
+    if !new.is_empty() {
+        let instead = if gone.is_empty() { String::new() } else { format!(" instead of {gone}") };
+        return format!("through {new}{instead}");
+    }
+    let metres = |path: &Path| number(path.metres.iter().map(|(_, metres)| metres).sum());
+    let (mine, theirs) = (metres(present), metres(other));
+    if mine == theirs {
+        return "by another way, as long".to_owned();
+    }
+    format!("by another way, {theirs} m in all instead of {mine}")
 }
 
 /// `walk 12.3 m and walk-on-knee 1 m`: metres by action, in the order in which each is done first.

@@ -102,10 +102,10 @@ fn names_that_mean_two_things_or_nothing() {
         .complains(&["`laod` is no goal of cell", "load"]);
     run(&folder, &["tasks", "cell.toml", "0.1,0.2,0.3"])
         .expect_status(2)
-        .complains(&["has 3 numbers and is no configuration"]);
+        .complains(&["has 3 numbers, and a configuration 2"]);
     run(&folder, &["tasks", "cell.toml", "0.1,9"])
         .expect_status(2)
-        .complains(&["expected 2 within -3.1 to 3.1 and -2.6 to 2.6"]);
+        .complains(&["`0.1,9` lies outside of the robot's limits: -3.1 to 3.1 and -2.6 to 2.6"]);
 }
 
 #[test]
