@@ -16,7 +16,7 @@ use libsqlite3_sys::{
     SQLITE_LIMIT_COLUMN, SQLITE_LIMIT_COMPOUND_SELECT, SQLITE_LIMIT_EXPR_DEPTH, SQLITE_LIMIT_FUNCTION_ARG,
     SQLITE_LIMIT_LENGTH, SQLITE_LIMIT_LIKE_PATTERN_LENGTH, SQLITE_LIMIT_SQL_LENGTH,
     SQLITE_LIMIT_TRIGGER_DEPTH, SQLITE_LIMIT_VARIABLE_NUMBER, SQLITE_LIMIT_VDBE_OP, SQLITE_NULL, SQLITE_OK,
-    SQLITE_READ, SQLITE_RECURSIVE, SQLITE_ROW, SQLITE_SELECT, sqlite3, sqlite3_column_blob,
+    SQLITE_PRAGMA, SQLITE_READ, SQLITE_RECURSIVE, SQLITE_ROW, SQLITE_SELECT, sqlite3, sqlite3_column_blob,
     sqlite3_column_bytes, sqlite3_column_count, sqlite3_column_double, sqlite3_column_int64,
     sqlite3_column_name, sqlite3_column_text, sqlite3_column_type, sqlite3_db_config, sqlite3_errmsg,
     sqlite3_extended_errcode, sqlite3_finalize, sqlite3_hard_heap_limit64, sqlite3_limit,
@@ -102,6 +102,10 @@ const FORBIDDEN: [&[u8]; 10] = [
     b"unhex",
 ];
 
+/// Pragmas that tell what tables and columns there are, and set nothing.
+const TELLING: [&[u8]; 6] =
+    [b"table_info", b"table_xinfo", b"table_list", b"index_list", b"index_info", b"foreign_key_list"];
+
 /// How many functions a statement has named so far.
 #[derive(Default)]
 struct Named {
@@ -127,13 +131,19 @@ impl Named {
 unsafe extern "C" fn may(
     named: *mut c_void,
     action: c_int,
-    _: *const c_char,
+    first: *const c_char,
     second: *const c_char,
     _: *const c_char,
     _: *const c_char,
 ) -> c_int {
     match action {
         SQLITE_SELECT | SQLITE_READ | SQLITE_RECURSIVE => SQLITE_OK,
+        SQLITE_PRAGMA if !first.is_null() => {
+            // SAFETY: SQLite hands the pragma's name, which ends in NUL and lives as long as the call.
+            let name = unsafe { CStr::from_ptr(first) }.to_bytes();
+            let tells = TELLING.iter().any(|known| known.eq_ignore_ascii_case(name));
+            if tells { SQLITE_OK } else { SQLITE_DENY }
+        }
         SQLITE_FUNCTION if !second.is_null() => {
             // SAFETY: SQLite hands the function's name, which ends in NUL and lives as long as the call.
             let name = unsafe { CStr::from_ptr(second) }.to_bytes();

@@ -50,6 +50,13 @@ const MEMORY: i64 = 256 << 20;
 /// Answers one reading statement, on a connection of its own that can do nothing but read the file at `path`. Blocks as long as
 /// that takes.
 pub async fn answer(path: &Path, sql: &str, limits: &Limits) -> Result<Answer> {
+    if let Some(command) = sql.split_whitespace().next().filter(|word| word.starts_with('.')) {
+        let help =
+            "`PRAGMA table_list` lists tables and views, `PRAGMA table_info(rooms)` the columns of one";
+        return Err(Error::Query(format!(
+            "`{command}` is a command of the sqlite3 shell, and no SQL: {help}"
+        )));
+    }
     let options = connection::options(path, limits.deadline)?.read_only(true).pragma("query_only", "1");
     let mut connection = options.pragma("cache_size", "-16384").connect().await?;
     let answer = guarded(&mut connection, path, sql, limits).await;

@@ -34,6 +34,8 @@ fn nothing_is_written_attached_or_smuggled_in() {
         "CREATE TEMP TABLE t (a)",
         "DROP VIEW route",
         "PRAGMA journal_mode = WAL",
+        "PRAGMA user_version",
+        "PRAGMA query_only = 0",
         "VACUUM",
     ] {
         assert!(refused(&store, sql).contains("only statements that read"), "{sql}");
@@ -50,6 +52,16 @@ fn nothing_is_written_attached_or_smuggled_in() {
     assert!(store.query(&format!("VACUUM INTO '{}'", other.display()), &Limits::default()).is_err());
     assert!(!other.exists());
     assert_eq!(std::fs::read(store.path()).unwrap(), before);
+}
+
+#[test]
+fn what_tables_and_columns_there_are_is_told() {
+    let (_folder, store) = paper::site();
+    for sql in ["PRAGMA table_info(robots)", "SELECT cid, name FROM pragma_table_info('robots')"] {
+        let answer = store.query(sql, &Limits::default()).expect(sql);
+        assert!(answer.rows.iter().any(|row| row[1] == Cell::from("hardness")), "{answer:?}");
+    }
+    assert!(refused(&store, " .tables").contains("a command of the sqlite3 shell"));
 }
 
 #[test]
