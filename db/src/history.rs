@@ -129,6 +129,11 @@ pub async fn about(connection: &mut SqliteConnection, table: &str, key: Option<&
 
 /// Says of one edit which other one took it back.
 pub(crate) async fn mark_undone(connection: &mut SqliteConnection, id: i64, by: i64) -> Result<()> {
+    // what it took back itself is in force again
+    sqlx::query("UPDATE history SET undone = NULL WHERE undone = ?")
+        .bind(id)
+        .execute(&mut *connection)
+        .await?;
     let mark = sqlx::query("UPDATE history SET undone = ? WHERE id = ?").bind(by).bind(id);
     mark.execute(connection).await?;
     Ok(())

@@ -163,7 +163,13 @@ impl Edit {
             Self::Undo(id) => match id.or(tx.undoable(1)?.first().copied()) {
                 Some(id) => {
                     let undone = undo::undo(tx, (site, rules), id, author);
-                    let (done, with) = undone.or_else(|error| Err(undo::refused(tx, id, error)?))?;
+                    // who said a number knows which edit was meant
+                    let (done, with) = match undone {
+                        Err(error) if matches!(self, Self::Undo(None)) => {
+                            return Err(undo::refused(tx, id, error)?);
+                        }
+                        undone => undone?,
+                    };
                     return Ok(Done::of(done, with));
                 }
                 None => return Err(Error::said(Code::EditNothingToUndo, "there is nothing to undo", None)),

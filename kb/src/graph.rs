@@ -83,6 +83,8 @@ pub enum End {
     Place(usize),
     /// A point that has no name.
     Point(Point),
+    /// A space, by where it is widest; where nothing fits there, the nearest point is as good.
+    Space(Point),
 }
 
 impl SiteGraph {
@@ -348,7 +350,7 @@ impl SiteGraph {
             return Some(End::Point(point));
         }
         if let Some(space) = self.building.space_named(name) {
-            return Some(End::Point(Point::new(space.x, space.y)));
+            return Some(End::Space(Point::new(space.x, space.y)));
         }
         self.index.room_by_name.get(name.strip_prefix("room ")?).copied().map(End::Room)
     }
@@ -357,8 +359,10 @@ impl SiteGraph {
     pub fn no_end(&self, name: &str) -> (String, Option<String>) {
         let spaces = self.building.spaces.iter().filter_map(|space| self.building.space(space.space));
         let spaces: Vec<String> = spaces.collect();
-        let known = self.names().chain(spaces.iter().map(String::as_str));
-        let places = || listed("places", self.places.iter().map(|place| place.place.as_str()));
+        let places = || self.places.iter().map(|place| place.place.as_str());
+        let rooms = self.rooms.iter().map(|room| room.name.as_str());
+        let known = places().chain(spaces.iter().map(String::as_str)).chain(rooms);
+        let places = || listed("places", places());
         let message = format!("`{name}` is no place, no space, no room and no point `x,y`");
         (message, did_you_mean(name, known).or_else(places))
     }
@@ -376,7 +380,7 @@ impl SiteGraph {
         match end {
             End::Room(index) => self.outline(*index).centre(),
             End::Place(index) => Point::new(self.places[*index].x, self.places[*index].y),
-            End::Point(point) => *point,
+            End::Point(point) | End::Space(point) => *point,
         }
     }
 

@@ -85,7 +85,9 @@ impl Basis<'_> {
             metres: to.distance(at),
             state: state.map(str::to_owned),
         });
-        let is_near = |nearest: &Nearest| self.within.is_some_and(|within| nearest.metres <= within);
+        let is_space = matches!(end, End::Space(_));
+        let is_near =
+            |nearest: &Nearest| is_space || self.within.is_some_and(|within| nearest.metres <= within);
         if let Some(instead) = nearest.as_ref().filter(|nearest| is_near(nearest)) {
             return Ok((graph.goal(gauge, &End::Point(instead.at()), robot), nearest));
         }

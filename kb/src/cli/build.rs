@@ -134,10 +134,7 @@ fn reacted(report: &Report) {
         line(said);
     }
     if report.reacted.len() > LISTED {
-        line(&format!(
-            "and {} more that rules told; `adit undo --list` has all",
-            report.reacted.len() - LISTED
-        ));
+        line(&format!("and {} more that rules told; `adit history` has all", report.reacted.len() - LISTED));
     }
 }
 

@@ -24,6 +24,9 @@ const FURTHEST_M: f64 = 50.0;
 const ASTRAY_M: f64 = 0.3;
 const TURNS: i32 = 32;
 
+/// Where there is less room than this, along and across, no robot stands, metres.
+const LEAST_M: f64 = 0.2;
+
 /// A point, with a heading in degrees where one is said: `x,y` or `x,y@degrees`.
 pub(crate) fn split(text: &str) -> Option<(Point, Option<f64>)> {
     let (point, heading) = match text.split_once('@') {
@@ -54,12 +57,20 @@ pub(crate) fn at(world: &World, building: &Building, (at, heading): (Point, Opti
         let help = format!("say a heading, too, and what is ahead of it is closed: {place}@90");
         return Err(Error::said(Code::TellNoDoor, message, Some(help)));
     };
-    let is_floor = |at: Point| world.bounds.contains(at) && !world.is_solid(at);
-    let Some(at) = beside(at, is_floor) else {
+    // what is white on an image beyond a wall, or within one, is no floor
+    let is_inside = |at: Point| building.spaces.is_empty() || building.space_at(at).is_some();
+    let is_floor = |at: Point| world.bounds.contains(at) && !world.is_solid(at) && is_inside(at);
+    let ahead = Point::towards(heading.to_radians());
+    let is_roomy = |at: Point| {
+        let both = |way: Point| {
+            free_along(world, building, at, way) + free_along(world, building, at, -way) >= LEAST_M
+        };
+        is_floor(at) && both(ahead) && both(ahead.perpendicular())
+    };
+    let Some(at) = beside(at, is_roomy).or_else(|| Some(at).filter(|&at| is_floor(at))) else {
         let message = format!("{},{} is not on the floor, nor is what is near", number(at.x), number(at.y));
         return Err(Error::said(Code::TellNoDoor, message, None));
     };
-    let ahead = Point::towards(heading.to_radians());
     let way = Segment::new(at, at + ahead * BEFORE_M);
     let met = doorways.filter(|doorway| doorway.crosses(&way) || doorway.distance(at) < STEP_M);
     if let Some(doorway) = met.min_by(|one, other| one.distance(at).total_cmp(&other.distance(at))) {

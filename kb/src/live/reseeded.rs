@@ -78,8 +78,8 @@ impl Held {
 
 /// Whether two tables have the same columns, and a key by which their rows are found again.
 fn is_alike(one: &Relation, other: &Relation) -> bool {
-    let column = |of: &Relation| -> Vec<(String, String, i64)> {
-        of.columns.iter().map(|column| (column.name.clone(), column.declared.clone(), column.key)).collect()
+    let column = |of: &Relation| -> Vec<(String, i64)> {
+        of.columns.iter().map(|column| (column.name.clone(), column.key)).collect()
     };
     one.columns.iter().any(|column| column.key > 0) && column(one) == column(other)
 }

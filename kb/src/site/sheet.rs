@@ -225,10 +225,37 @@ fn of_text(path: &Path, bytes: Vec<u8>) -> Result<Parts> {
         // behind a line that ends with two signs the reader stands at the second one
         let ends = text[begin..].len() - text[begin..].trim_start_matches(['\r', '\n']).len();
         lines.push(begin + ends);
-        let cell = |cell: &str| if is_with_semicolons { with_point(cell) } else { cell.to_owned() };
-        rows.push(record.iter().map(cell).collect());
+        rows.push(record.iter().map(str::to_owned).collect::<Vec<String>>());
+    }
+    if is_with_semicolons {
+        let all = || rows.iter().flatten();
+        if let Some(cell) =
+            all().find(|cell| is_with_thousands(cell, all().any(|other| has_decimal_comma(other))))
+        {
+            let message = format!("{file}: `{cell}` has a point between its thousands");
+            let help =
+                "write thousands without a point; numbers of this file have a comma before their decimals"
+                    .to_owned();
+            return Err(Error::said(Code::TableFile, message, Some(help)));
+        }
+        rows.iter_mut().flatten().for_each(|cell| *cell = with_point(cell));
     }
     Ok((Lines::Text(text, lines), rows))
+}
+
+/// Whether a number has points between its thousands: `1.234,5`, and `1.234` among numbers with decimal commas.
+fn is_with_thousands(cell: &str, among_commas: bool) -> bool {
+    let cell = cell.trim();
+    let (whole, decimals) = cell.split_once(',').map_or((cell, None), |(whole, part)| (whole, Some(part)));
+    let is_digits = |part: &str| part.bytes().all(|byte| byte.is_ascii_digit());
+    let mut groups = whole.strip_prefix('-').unwrap_or(whole).split('.');
+    let first = groups.next().unwrap_or_default();
+    let groups: Vec<&str> = groups.collect();
+    (1..=3).contains(&first.len())
+        && is_digits(first)
+        && !groups.is_empty()
+        && groups.iter().all(|group| group.len() == 3 && is_digits(group))
+        && decimals.map_or(among_commas || groups.len() > 1, |part| !part.is_empty() && is_digits(part))
 }
 
 /// A number that is written with a comma, with a point.

@@ -2,6 +2,7 @@
 
 use adit_db::told::Told as Row;
 use adit_db::{Cell, Store};
+use adit_engine::PropertyName;
 
 use super::cell;
 use super::subject::Subject;
@@ -55,7 +56,8 @@ pub(super) fn told(state: &State, subject: &Subject) -> Result<Vec<Telling>> {
             }
         }
         if let Some(property) = subject.property.as_ref().filter(|_| found.is_empty()) {
-            let is_concluded = state.inputs.rules.gives(&class, property);
+            let name = PropertyName::new(&class, property);
+            let is_concluded = state.inputs.rules.concluded().contains(&&name);
             let value = state.knowledge.value(&class, &subject.key, property);
             if let Some(value) = value.filter(|_| !is_concluded) {
                 let from = if is_table { format!("the table {table}") } else { "the map".to_owned() };

@@ -281,6 +281,14 @@ fn a_table_is_read_as_spreadsheet_programs_of_many_countries_write_it() {
     let site = site.with("tables/sizes.csv", "floor,size\ntiles,\"1,5\"\ngravel,2\n");
     let said = ["sizes.csv, row 2: `1,5` is written with a comma, so all of `size` counts as texts"];
     site.adit("build", &[]).expecting(0).complains(&said);
+    // nobody knows what a point means among commas
+    for (cell, file) in [("1.200", "floor;a;b\ntiles;1,5;1.200\n"), ("1.234,5", "floor;a\ntiles;1.234,5\n")] {
+        site.write("floors.csv", file);
+        let said = [format!("`{cell}` has a point between its thousands")];
+        site.adit("table", &["floors", "--from", &at(&site, "floors.csv")])
+            .expecting(2)
+            .complains(&[said[0].as_str()]);
+    }
     // a blank behind a name makes no other object of it
     let table = site.adit("table", &["floors"]).expecting(0).stdout;
     site.write("floors.csv", table.replace("gravel,", "gravel ,"));

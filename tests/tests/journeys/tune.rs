@@ -196,7 +196,13 @@ fn an_undone_edit_takes_those_along_whose_rows_went_with_it() {
     site.adit("tune", &crawl).expect_status(0);
     site.adit("tune", &["changes", "STAND/CRAWL", "--add", "hardness=1"]).expect_status(0);
     site.adit("undo", &["2"]).expect_status(0);
-    site.adit("undo", &["3"]).expecting(2).complains(&["edit 4 did so already", "the edit before it is 1"]);
+    site.adit("undo", &["3"]).expecting(2).complains(&["edit 4 did so already"]);
+    // brought back, they are in force, and are taken back like any other
+    site.adit("undo", &["4"]).expect_status(0);
+    assert_eq!(site.sqlite3("SELECT count(*) FROM changes WHERE to_state = 'CRAWL'"), ["1"]);
+    let undone = site.adit("undo", &[]).expecting(0).stdout;
+    assert!(undone.contains("robot/STAND/CRAWL is gone again"), "{undone}");
+    site.adit("undo", &["2"]).expect_status(0);
     // the newest edit that is left
     let undone = site.adit("undo", &[]).expecting(0).stdout;
     assert!(undone.starts_with("undone: robots.robot/SQUAT.hardness: 9 → 4"), "{undone}");
@@ -221,6 +227,12 @@ fn what_files_replace_in_tables_is_in_the_history_and_comes_back() {
     assert_eq!(all(&site), seeded);
     site.adit("undo", &[]).expect_status(0);
     assert_eq!(all(&site), tuned);
+    // a whole number that becomes another one is no other column
+    site.write("tables/ores.csv", ores.replace(",2,", ",2.5,"));
+    site.adit("build", &["--reseed"]).expect_status(0);
+    site.adit("undo", &[]).expect_status(0);
+    assert_eq!(all(&site)[0], tuned[0]);
+    assert_eq!(site.sqlite3("SELECT weight FROM ores WHERE ore = 'lead'"), ["2.0"]);
     // what the files have already is no edit
     let before = site.sqlite3("SELECT count(*) FROM history");
     site.adit("build", &[]).expect_status(0);

@@ -36,6 +36,11 @@ pub fn text(wanted: &[String]) -> Result<String> {
     match wanted {
         [] => of(FIRST),
         [one] => of(one),
+        many if (1..many.len()).any(|at| many[..at].contains(&many[at])) => {
+            let message = format!("a robot is named twice: {}", many.join(", "));
+            let help = "one machine more of a kind gets a name of its own in robots.toml".to_owned();
+            Err(Error::said(Code::SiteUnknownRobot, message, Some(help)))
+        }
         many => {
             Ok(many.iter().map(|name| Ok(named(&of(name)?, name))).collect::<Result<Vec<_>>>()?.join("\n"))
         }

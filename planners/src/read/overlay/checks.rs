@@ -52,13 +52,10 @@ pub(super) fn inside<T>(
     item: &Located<T>,
     found: &mut Vec<Problem>,
 ) -> Option<Rect> {
-    let Rect { x0, y0, x1, y1 } = bounds;
     let common = bounds.intersection(&rect);
     let problem = match common {
         None => {
-            let message = format!(
-                "this {what} lies outside of the environment, which is x {x0} to {x1}, y {y0} to {y1}"
-            );
+            let message = format!("this {what} lies outside of the environment, which is {}", extent(bounds));
             text.problem(Code::Outside, &item.span, message)
         }
         Some(_) if !bounds.encloses(&rect) => {
@@ -104,9 +101,7 @@ pub(super) fn add_place(
         return;
     }
     if !world.bounds.contains(*at) {
-        let Rect { x0, y0, x1, y1 } = world.bounds;
-        let message =
-            format!("{here} lies outside of the environment, which is x {x0} to {x1}, y {y0} to {y1}");
+        let message = format!("{here} lies outside of the environment, which is {}", extent(world.bounds));
         found.push(text.problem(Code::PlaceOutside, &place.span, message));
         return;
     }
@@ -117,9 +112,8 @@ pub(super) fn add_place(
         return;
     }
     if let Some(over) = world.obstacles.iter().find(|obstacle| obstacle.shape.contains(*at)) {
-        let r = over.shape.enclosing_rect();
-        let (x0, y0, x1, y1) = (r.x0, r.y0, r.x1, r.y1);
-        let message = format!("{here} lies inside an obstacle of the map, x {x0} to {x1}, y {y0} to {y1}");
+        let over = extent(over.shape.enclosing_rect());
+        let message = format!("{here} lies inside an obstacle of the map, {over}");
         found.push(text.problem(Code::PlaceInWall, &place.span, message));
         return;
     }
@@ -129,4 +123,11 @@ pub(super) fn add_place(
         return;
     }
     world.places.push(place.value.clone());
+}
+
+/// From where to where a rectangle goes: `x 0 to 30.2, y -2 to 17`.
+pub(super) fn extent(rect: Rect) -> String {
+    let micrometres = |metres: f64| (metres * 1e6).round() / 1e6;
+    let [x0, y0, x1, y1] = [rect.x0, rect.y0, rect.x1, rect.y1].map(micrometres);
+    format!("x {x0} to {x1}, y {y0} to {y1}")
 }

@@ -4,7 +4,7 @@ use geo::{Area as _, Centroid};
 
 use super::super::diagnostic::{Code, Problem, Text};
 use super::super::fields::Located;
-use super::checks::{inside, taken};
+use super::checks::{extent, inside, taken};
 use super::named::{Given, centre};
 use crate::geometry::{Point, Rect};
 use crate::world::{Area, NamedDoor, Property, Shape, World};
@@ -42,11 +42,9 @@ pub(super) fn add_door(world: &mut World, text: &Text, door: &Located<NamedDoor>
         found.push(problem);
         return;
     }
-    let Rect { x0, y0, x1, y1 } = world.bounds;
     let Some((from, to)) = world.bounds.clip(*from, *to) else {
-        let message = format!(
-            "the door `{name}` lies outside of the environment, which is x {x0} to {x1}, y {y0} to {y1}"
-        );
+        let environment = extent(world.bounds);
+        let message = format!("the door `{name}` lies outside of the environment, which is {environment}");
         found.push(text.problem(Code::Outside, &door.span, message));
         return;
     };

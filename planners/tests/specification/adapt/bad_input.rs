@@ -110,7 +110,7 @@ fn a_scenario_says_what_is_wrong_with_it() {
     );
     assert_eq!(error(&ArmScenario { wrap: true, ..scenario() }), ScenarioError::Wrap);
     let flat = ArmScenario { links: vec![1.0, 0.0], ..scenario() };
-    assert_eq!(error(&flat).to_string(), "link 1 is 0 m long, and must be longer than 0");
+    assert_eq!(error(&flat).to_string(), "link 2 is 0 m long, and must be longer than 0");
     let far = ArmScenario { added_goals: vec![vec![4.0, 0.0]], ..scenario() };
     assert_eq!(
         error(&far).to_string(),
