@@ -82,6 +82,10 @@ impl Links<'_> {
             let (part, own_used) = rewritten(self, rule, part, each);
             if own_used { moved.push(part) } else { kept.push(part) }
         }
+        // whether one part refutes a hypothesis does not hang on what another one leaves open: they are weighed as a whole
+        if rule.hypothesis.is_some() && each && !moved.is_empty() {
+            moved.splice(0..0, kept.drain(..));
+        }
         self.own = None;
         let links = rule.clauses[index + 1..].iter().take_while(|clause| clause.link.is_some()).count();
         let clause = &mut rule.clauses[index];

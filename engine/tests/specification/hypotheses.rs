@@ -103,3 +103,21 @@ fn a_rule_base_names_its_hypotheses() {
     assert_eq!(base.hypotheses().into_iter().collect::<Vec<_>>(), names);
     assert_eq!(base.rules()[1].hypothesis(), Some(names[0].clone()));
 }
+
+#[test]
+fn what_one_part_of_a_condition_refutes_no_other_part_leaves_open_through_a_link_either() {
+    let rule = r#"property DOORS.room names ROOMS;
+        rule "r" each door in DOORS where door.ok && door.room.lit hypothesis door.good"#;
+    let rooms = rooms([Some(true), Some(false), None]);
+    let doors = |ok: [Option<bool>; 5]| {
+        Class::new("DOORS", &["door"])
+            .numbers("door", [1.0, 2.0, 3.0, 4.0, 5.0].map(Some))
+            .numbers("room", [Some(1.0), Some(2.0), Some(3.0), None, Some(1.0)])
+            .truths("ok", ok)
+    };
+    let good = |ok| concluded(rule, [rooms.clone(), doors(ok)]).0.truths("DOORS", "good").unwrap();
+    let (yes, no) = (Some(true), Some(false));
+    assert_eq!(good([None; 5]), [None, no, None, None, None]);
+    assert_eq!(good([yes; 5]), [yes, no, None, None, yes]);
+    assert_eq!(good([no; 5]), [no; 5]);
+}
