@@ -23,6 +23,7 @@ use serde::Serialize;
 
 use crate::error::{Code, Error, Result};
 use crate::live::Live;
+use crate::live::report::{HIGHER, ONE_OBJECT};
 use crate::state::State;
 use crate::why::hindered::{Driven, Hindered, Kind, by_ease};
 use crate::why::subject::Subject;
@@ -288,11 +289,11 @@ fn cell(value: &Value) -> Cell {
 fn disputed(subject: &Subject, property: &str, conflict: &Conflict) -> Reasoned {
     let said: Vec<String> =
         conflict.values.iter().map(|(rule, value)| format!("\"{rule}\" says {value}")).collect();
-    let why = format!(
-        "{} {property} is unknown, since rules disagree: {}; the one that shall count needs a higher `priority`",
-        subject.name,
-        said.join(", ")
-    );
+    let is_one_rule = conflict.values.iter().all(|(rule, _)| *rule == conflict.values[0].0);
+    let (disagree, advice) =
+        if is_one_rule { ("one rule says several things", ONE_OBJECT) } else { ("rules disagree", HIGHER) };
+    let why =
+        format!("{} {property} is unknown, since {disagree}: {}; {advice}", subject.name, said.join(", "));
     Reasoned {
         property: property.to_owned(),
         value: Cell::Null,

@@ -600,6 +600,11 @@ struct Disagreement<'c> {
 /// What a room needs to be entered.
 const NEEDED: [&str; 2] = ["ROOMS.hardness", "ROOMS.passable"];
 
+/// What to do where rules disagree; where one rule does with itself, since it takes the value from several objects.
+pub(crate) const HIGHER: &str = "the one that shall count needs a higher `priority`";
+pub(crate) const ONE_OBJECT: &str =
+    "let it take them from one object alone: by `least` or `most` in place of `each`, or by a `where`";
+
 /// Objects on which the same rules disagree, in one sentence.
 fn conflicts(conclusions: &Conclusions) -> Vec<String> {
     let mut groups: BTreeMap<(String, Vec<&str>), Disagreement<'_>> = BTreeMap::new();
@@ -617,12 +622,15 @@ fn conflicts(conclusions: &Conclusions) -> Vec<String> {
     let sentence = |((property, _), Disagreement { keys, said }): ((String, _), Disagreement<'_>)| {
         let more = if keys.len() > 5 { ", ..." } else { "" };
         let named = keys.iter().take(5).copied().collect::<Vec<_>>().join(", ");
+        let is_one_rule = said.len() == 1;
         let said: Vec<String> =
             said.iter().map(|(rule, values)| format!("\"{rule}\" says {}", any_of(values))).collect();
+        let advice = if is_one_rule { ONE_OBJECT } else { HIGHER };
         let closed = if NEEDED.contains(&&*property) { ", and until then no route enters them" } else { "" };
         format!(
-            "{property} of {} ({named}{more}) is unknown, since rules disagree: {}; the one that shall count needs a higher `priority`{closed}",
+            "{property} of {} ({named}{more}) is unknown, since {}: {}; {advice}{closed}",
             keys.len(),
+            if is_one_rule { "a rule says several things of one object" } else { "rules disagree" },
             said.join(", ")
         )
     };

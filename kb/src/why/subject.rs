@@ -46,6 +46,10 @@ impl Subject {
             let named = fork.named();
             let help =
                 did_you_mean(text.trim(), named.names().collect::<Vec<_>>().iter().map(String::as_str));
+            let has_rooms = fork.site.site().has_rooms();
+            let help = help.or_else(|| {
+                (!has_rooms).then(|| "say class, object and property: `orders.2.total`".to_owned())
+            });
             let help = help.unwrap_or_else(|| {
                 "say what the building has a name for, or `door 7`, `room d`, `doors.7`, `doors.7.hardness`".to_owned()
             });

@@ -185,3 +185,13 @@ fn a_build_says_what_rules_told_and_conclude_otherwise() {
     let built = site.adit("build", &[]).expecting(0).stdout;
     assert!(built.contains("sell") && built.contains("→ 90"), "{built}");
 }
+
+#[test]
+fn a_rule_that_says_several_things_of_one_object_is_said_to_take_them_from_several() {
+    let rule = "rule \"fee\" each o in ORDERS each z in ZONES where z.country == o.customer.country\n\
+        \x20   then { o.fee = z.fee; }\n";
+    let site = shop().with("rules/fee.rhai", rule).built();
+    let why = site.adit("why", &["orders.1.fee"]).expecting(0).stdout;
+    let said = ["since one rule says several things", "`least` or `most` in place of `each`"];
+    assert!(said.iter().all(|words| why.contains(words)) && !why.contains("priority"), "{why}");
+}
