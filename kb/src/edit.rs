@@ -240,10 +240,17 @@ impl Edit {
         match self {
             Self::Add(table, ..) if table == "robots" => unpriced(tx, Some(&done.key)),
             Self::Table(table, ..) if table == "robots" => unpriced(tx, None),
-            Self::Close(close) => match close::for_longer(tx, &close.what, &done.key)? {
-                None => close::open_all_the_same(tx, &close.what, &done.key),
-                word => Ok(word),
-            },
+            Self::Close(close) => {
+                let place = close::by_place(tx, &close.what)?;
+                let word = match close::for_longer(tx, &close.what, &done.key)? {
+                    None => close::open_all_the_same(tx, &close.what, &done.key)?,
+                    word => word,
+                };
+                Ok(match (place, word) {
+                    (Some(place), Some(word)) => Some(format!("{place}; {word}")),
+                    (place, word) => place.or(word),
+                })
+            }
             Self::Open(what) => close::shut_all_the_same(tx, what),
             _ => self.overridden(tx, done),
         }

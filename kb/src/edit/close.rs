@@ -153,6 +153,17 @@ fn opens(fact: &Row) -> bool {
     fact.property == CLOSED && fact.value == adit_db::Cell::Integer(0)
 }
 
+/// A word about a place by whose name a space was closed that is called otherwise.
+pub(super) fn by_place(tx: &mut Tx<'_>, what: &str) -> Result<Option<String>> {
+    if tx.site_value(LAYOUT)?.is_some() || place::split(what).is_some() {
+        return Ok(None);
+    }
+    let (what, building) = (what.trim(), Building::read(tx)?);
+    let Ok((class, name)) = named(tx, what) else { return Ok(None) };
+    let is_other = class == "SPACES" && name != what && building.space_named(what).is_none();
+    Ok(is_other.then(|| format!("{what} is a place in {name}, and all of that is closed")))
+}
+
 /// A word about what was closed, and is passed all the same: the doorways of a space of which it is told that they are open.
 pub(super) fn open_all_the_same(tx: &mut Tx<'_>, what: &str, fact: &str) -> Result<Option<String>> {
     let told = tx.facts_told()?;

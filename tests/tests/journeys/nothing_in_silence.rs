@@ -225,6 +225,8 @@ fn a_space_is_found_by_the_name_that_it_had_before_somebody_named_it() {
     assert_eq!(site.sqlite3("SELECT name FROM spaces WHERE space = 1"), ["room 1"]);
     site.adit("open", &["home"]).expect_status(0);
     assert_eq!(site.sqlite3("SELECT count(*) FROM told"), ["0"]);
+    let said = ["desk is a place in room 1, and all of that is closed"];
+    site.adit("close", &["desk", "--dry-run"]).expecting(0).complains(&said);
     // a wet spot is no name for the room around it
     site.adit("lay", &["area", "puddle", "9,1 10,2"]).expect_status(0);
     assert_eq!(site.sqlite3("SELECT name FROM spaces WHERE space = 2"), ["room 2"]);
