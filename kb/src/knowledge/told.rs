@@ -133,7 +133,7 @@ impl Fact {
     /// That it no longer finds what it is about.
     pub fn lost(&self) -> String {
         let why = match &self.object {
-            Object::Key(key) => format!("{} has no `{key}` any more", self.class),
+            Object::Key(key) => format!("{} has no `{key}`", self.class),
             Object::Point([x, y], _) => {
                 format!("nothing of {} is at {},{} as it was", self.class, number(*x), number(*y))
             }

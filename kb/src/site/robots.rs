@@ -70,7 +70,9 @@ impl RobotFile {
         }
         let file = path.display();
         if is_first && tx.site_value("generation")?.is_some() {
-            return Ok(vec![format!("the table robots was empty: it is as {file} has it again")]);
+            return Ok(vec![format!(
+                "the table robots was empty: robots, changes and loads are as {file} has them again"
+            )]);
         }
         let note = |what| {
             if again {

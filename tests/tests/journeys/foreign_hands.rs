@@ -160,7 +160,28 @@ fn what_is_written_by_hand_and_counts_for_nothing_is_refused_or_said() {
     site.outside_edit("INSERT INTO tuning_cells VALUES ('nigth', 'robots', 'STAND', 'hardness', 9)");
     site.adit("build", &[]).expecting(0).complains(&["a key is whole: `robot/STAND`"]);
     site.outside_edit("DELETE FROM robots");
-    site.adit("build", &[])
-        .expecting(0)
-        .complains(&["the table robots was empty: it is as", "robots.toml has it again"]);
+    site.adit("build", &[]).expecting(0).complains(&[
+        "the table robots was empty: robots, changes and loads are as",
+        "robots.toml has them again",
+    ]);
+}
+
+#[test]
+fn a_row_of_told_names_a_doorway_or_a_space_as_people_do_or_by_a_point() {
+    let site = TestSite::example("starter").with("site.toml", STARTER).built();
+    let by = |class: &str, column: &str, value: &str| {
+        let columns = format!("class, {column}, property, kind, value");
+        site.outside_edit(&format!(
+            "INSERT INTO told ({columns}) VALUES ('{class}', {value}, 'closed', 'truth', 1)"
+        ));
+        site.adit("build", &[]).expect_status(0);
+        let closed = site.sqlite3("SELECT closed FROM doorways");
+        site.outside_edit("DELETE FROM told");
+        site.adit("build", &[]).expect_status(0);
+        closed
+    };
+    assert_eq!(by("DOORWAYS", "key", "'doorway 1'"), ["1"]);
+    assert_eq!(by("DOORWAYS", "x, y", "6, 3.5"), ["1"]);
+    assert_eq!(by("DOORWAYS", "x, y", "6, 6"), [""]);
+    assert_eq!(by("SPACES", "key", "'home'"), ["1"]);
 }

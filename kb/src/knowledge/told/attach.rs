@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use adit_engine::{KnowledgeBase as Inference, Type, Value};
-use adit_planners::geometry::{Point, Rect, polygon};
+use adit_planners::geometry::{Point, Rect, Segment, polygon};
 use adit_planners::rooms::outline;
 
 use super::{Fact, Object};
@@ -91,17 +91,43 @@ impl Object {
 impl Fact {
     /// The rows of the objects that a fact is about, ascending.
     ///
-    /// A name means the object with that key. A point means every object with a rectangle, or an outline, that holds the
+    /// A name means the object with that key, or the doorway or space that is called so. A point means every object with a rectangle, or an outline, that holds the
     /// point; of those of one layer (robot, state and facing) the first one. A door is found by its segment: [`is_same_door`].
     pub fn rows(&self, knowledge: &Inference) -> Vec<usize> {
         match &self.object {
-            Object::Key(key) => knowledge.row(&self.class, key).into_iter().collect(),
+            Object::Key(key) => {
+                let row = knowledge.row(&self.class, key).or_else(|| called(knowledge, &self.class, key));
+                row.into_iter().collect()
+            }
             Object::Point([x, y], Some(segment)) => {
                 doors_like(knowledge, &self.class, Point::new(*x, *y), *segment)
+            }
+            Object::Point([x, y], None) if self.class == "DOORWAYS" => {
+                nearest(knowledge, &self.class, Point::new(*x, *y)).into_iter().collect()
             }
             Object::Point([x, y], None) => holding(knowledge, &self.class, Point::new(*x, *y)),
         }
     }
+}
+
+/// The object that the map calls so, or the doorway or space of a number: `doorway 3`.
+fn called(knowledge: &Inference, class: &str, name: &str) -> Option<usize> {
+    let kind = match class {
+        "DOORWAYS" => "doorway",
+        "SPACES" => "space",
+        _ => return None,
+    };
+    let names = knowledge.texts(class, "called").unwrap_or_default();
+    let by_map = names.iter().position(|called| called.as_deref() == Some(name));
+    by_map.or_else(|| knowledge.row(class, name.strip_prefix(kind)?.trim()))
+}
+
+/// The object whose segment is nearest to a point that is said alone.
+fn nearest(knowledge: &Inference, class: &str, at: Point) -> Option<usize> {
+    let far = |[x0, y0, x1, y1]: [f64; 4]| Segment::new(Point::new(x0, y0), Point::new(x1, y1)).distance(at);
+    let rows = rects(knowledge, class)?.into_iter().map(far).enumerate();
+    let near = rows.filter(|(_, metres)| *metres <= REACH);
+    near.min_by(|one, other| one.1.total_cmp(&other.1)).map(|(row, _)| row)
 }
 
 fn rects(knowledge: &Inference, class: &str) -> Option<Vec<[f64; 4]>> {
