@@ -656,6 +656,15 @@ impl KnowledgeBase {
         Err(Error::all(failures.chain(lint::unread(&self.site, rules, &self.planners, &self.asked()?))))
     }
 
+    /// Refuses rules that speak of what there is not; what there is.
+    pub(crate) fn spoken(&self, rules: &RuleBase, told: &Told) -> Result<Schema> {
+        let schema = self.schema(told);
+        let problems = rules.check(&schema);
+        let errors: Vec<_> =
+            problems.into_iter().filter(|problem| problem.severity == adit_engine::Severity::Error).collect();
+        if errors.is_empty() { Ok(schema) } else { Err(Error::all(errors)) }
+    }
+
     /// Runs tests; all of them together may take what one inference may.
     fn run_tests(
         &self,
@@ -664,13 +673,7 @@ impl KnowledgeBase {
         told: &Told,
         limits: Limits,
     ) -> Result<Vec<TestOutcome>> {
-        let schema = self.schema(told);
-        let problems = rules.check(&schema);
-        let errors: Vec<_> =
-            problems.into_iter().filter(|problem| problem.severity == adit_engine::Severity::Error).collect();
-        if !errors.is_empty() {
-            return Err(Error::all(errors));
-        }
+        let schema = self.spoken(rules, told)?;
         let mut given = self.planned_classes();
         given.extend(tables::unbuilt().into_keys().chain([classes::ROUTES.to_owned()]));
         let asked: Vec<&str> = self.asks().into_iter().map(|class| class.name).collect();

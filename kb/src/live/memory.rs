@@ -178,7 +178,8 @@ impl Memory {
         (edit, author): (&Edit, &Author),
         progress: &dyn Progress,
     ) -> Result<(Done, Report)> {
-        let opened = Self::open(tx, site, inputs)?;
+        // an edit may mend what keeps it from being opened, and a build says what is still wrong
+        let opened = Self::open(tx, site, inputs).unwrap_or_default();
         make_tables(tx, &inputs.rules)?;
         let done = edit.apply(tx, site, &inputs.rules, author)?;
         let Some(mut memory) = opened else { return Ok((done, Self::build(tx, site, inputs, progress)?.1)) };
@@ -224,6 +225,10 @@ impl Memory {
         let mut clock = Stopwatch::new();
         let site = Arc::clone(&self.state.site);
         let told = site.told(tx, &self.state.inputs.rules)?;
+        if site.course().is_some() {
+            // what tables hold there says what rules may speak of
+            site.spoken(&self.state.inputs.rules, &told)?;
+        }
         clock.lap("edit");
         let step = self.state.step_and_react(tx, told, Recalled::Nothing, progress)?;
         clock.skip();

@@ -249,3 +249,28 @@ fn what_a_plan_says_of_doorways_and_no_rule_reads_is_told() {
         "{said}"
     );
 }
+
+#[test]
+fn what_a_rule_speaks_of_is_not_taken_away_and_undo_works_where_it_was() {
+    let site = flat();
+    let rule = "rule \"nobody crosses what is wet\" priority 2\n\
+        each way in WAYS where way.floor == \"wet\" then { way.passable = false; }\n";
+    let mut map = std::fs::read_to_string(site.path().join("flat.toml")).unwrap();
+    map.push_str("\n[[doorway]]\nat = [6.5, 4.0]\nfloor = \"wet\"\n");
+    site.write("flat.toml", map);
+    site.write("rules/wet.rhai", rule);
+    site.adit("build", &["--reseed"]).expect_status(0);
+    let marks = site.sqlite3("SELECT mark FROM marks");
+    site.adit("tune", &["marks", &marks[0], "--remove"])
+        .expecting(2)
+        .complains(&["WAYS has no property `floor`"]);
+    assert_eq!(site.sqlite3("SELECT mark FROM marks"), marks);
+    // taken away while no rule spoke of it
+    std::fs::remove_file(site.path().join("rules/wet.rhai")).unwrap();
+    site.adit("build", &[]).expect_status(0);
+    site.adit("tune", &["marks", &marks[0], "--remove"]).expect_status(0);
+    site.write("rules/wet.rhai", rule);
+    site.adit("build", &[]).expecting(2).complains(&["WAYS has no property `floor`"]);
+    site.adit("undo", &[]).expect_status(0);
+    assert_eq!(site.sqlite3("SELECT mark FROM marks"), marks);
+}

@@ -177,7 +177,7 @@ fn what_was_acknowledged_outlives_a_power_cut() {
 fn an_undo_that_cannot_be_is_the_callers_mistake() {
     let (_site, service) = served("paper");
     service.ask("POST", "/api/edits", Some(&hardness("SQUAT", 3.0)));
-    for (edit, expected) in [(1, 200), (1, 400), (99, 400), (-1, 400)] {
+    for (edit, expected) in [(1, 200), (1, 409), (99, 404), (-1, 404)] {
         let undo = json!({"edit": {"kind": "undo", "edit": edit}});
         let (status, answer) = service.ask("POST", "/api/edits", Some(&undo));
         assert_eq!(status, expected, "{edit}: {answer}");
