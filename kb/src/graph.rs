@@ -338,7 +338,7 @@ impl SiteGraph {
         robots
     }
 
-    /// What a name means: a place, a space, a room, `x,y`, a space (where it is widest), or a room as answers call it: `room d`.
+    /// What a name means: a place, a room, `x,y`, a space (where it is widest), or a room as answers call it: `room d`.
     pub fn end(&self, name: &str) -> Option<End> {
         if let Some(index) = self.index.place_by_name.get(name) {
             return Some(End::Place(*index));

@@ -93,7 +93,7 @@ impl Building {
         let (place, whom) = (self.place_of_line(line), line.whom.words());
         match line.fact {
             Some(fact) => format!("{place} is told to be closed{whom} (fact {fact})"),
-            None => format!("{place} is closed on this errand"),
+            None => format!("{place} is closed{whom}, as was asked"),
         }
     }
 

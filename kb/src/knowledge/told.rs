@@ -60,8 +60,8 @@ pub struct Fact {
     pub is_kept: bool,
 }
 
-/// Who tells what is taken back again.
-pub const NOBODY: &str = "nobody";
+/// Who tells what is taken back again. No account is called so; one that services run under may be `nobody`.
+pub const NOBODY: &str = "(nobody)";
 
 /// What a fact is about.
 #[derive(Clone, Debug, PartialEq)]

@@ -151,6 +151,13 @@ fn an_errand_that_keeps_away_names_no_fact_that_there_is_not() {
     assert!(said.contains("this errand keeps away from `middle`") && !said.contains("fact"), "{said}");
     let said = site.adit("route", &["home", "window", "--avoid", "6,3.5@0"]).expecting(1).stdout;
     assert!(said.contains("keeps away from `6,3.5@0`") && !said.contains("fact"), "{said}");
+    // what a service tells that runs as `nobody` is a fact like any other
+    site.outside_edit(
+        "INSERT INTO told (class, x, y, x0, y0, x1, y1, property, kind, value, who)
+         VALUES ('DOORWAYS', 9, 4, 9, 0, 9, 8, 'closed', 'truth', 1, 'nobody')",
+    );
+    let said = site.adit("route", &["home", "window"]).expecting(1).stdout;
+    assert!(said.contains("is told to be closed (fact 1)"), "{said}");
 }
 
 #[test]

@@ -91,7 +91,8 @@ impl Object {
 impl Fact {
     /// The rows of the objects that a fact is about, ascending.
     ///
-    /// A name means the object with that key, or the doorway or space that is called so. A point means every object with a rectangle, or an outline, that holds the
+    /// A name means the object with that key, or the doorway or space that is called so. A point alone means the nearest doorway;
+    /// of other classes every object with a rectangle, or an outline, that holds the
     /// point; of those of one layer (robot, state and facing) the first one. A door is found by its segment: [`is_same_door`].
     pub fn rows(&self, knowledge: &Inference) -> Vec<usize> {
         match &self.object {
