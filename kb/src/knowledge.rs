@@ -370,21 +370,28 @@ impl KnowledgeBase {
         Some(file.file_name().unwrap_or_default().to_string_lossy().into_owned())
     }
 
-    /// Refuses the database of a site, or of another map, for a map alone: its tables would be filled from the file.
-    pub(crate) fn refuse_anothers(&self, database: &Path) -> Result<()> {
-        let Some(file) = self.called_alone().filter(|_| database.exists()) else { return Ok(()) };
-        let (name, alone) = Store::open_read_only(database)?
-            .snapshot(|tx| Ok::<_, Error>((tx.site_value("name")?, tx.site_value(ALONE)?)))?;
-        match name {
-            Some(name) if alone.as_deref() != Some(file.as_str()) => {
-                let database = database.display();
-                let message =
-                    format!("{database} is the database of {name}, which {file} would be filled into");
-                let help = Some("name a file of its own".to_owned());
-                Err(Error::said(Code::SiteMapAlone, message, help))
-            }
-            _ => Ok(()),
+    /// Refuses the database of another site, or of another map alone: its tables and its history would become this one's.
+    ///
+    /// `site.db` of the site's own folder is its own, whatever the site was called when it was built.
+    pub(crate) fn refuse_anothers(&self, tx: &mut Tx<'_>) -> Result<()> {
+        let called = self.called_alone();
+        if called.is_none() && self.database == self.site.database() {
+            return Ok(());
         }
+        let Some(name) = tx.site_value("name")? else { return Ok(()) };
+        let alone = tx.site_value(ALONE)?;
+        if alone == called && (called.is_some() || name == self.site.name) {
+            return Ok(());
+        }
+        let (database, this) = (self.database.display(), called.as_ref().unwrap_or(&self.site.name));
+        let message = format!("{database} is the database of {name}, which {this} would be filled into");
+        let help = match &called {
+            None if alone.is_none() => {
+                format!("name a file of its own; if {name} is what this site was called, say so in site.toml: name = \"{name}\"")
+            }
+            _ => "name a file of its own".to_owned(),
+        };
+        Err(Error::said(Code::DatabaseAnothers, message, Some(help)))
     }
 
     pub(crate) fn asks_about_another_moment(&self) -> bool {

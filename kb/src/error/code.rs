@@ -51,6 +51,8 @@ codes! {
 
     /// The database cannot be opened, read or written: missing, damaged, of another version, on a full disk.
     Database = "database", INTERNAL_SERVER_ERROR;
+    /// The database is another site's, whose tables and history this site would be filled into.
+    DatabaseAnothers = "database/anothers", CONFLICT;
     /// Another program holds the database; try again when it is done.
     DatabaseLocked = "database/locked", SERVICE_UNAVAILABLE;
     /// The database does not take a value, or has no such table, column or row.

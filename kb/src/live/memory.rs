@@ -180,6 +180,9 @@ impl Memory {
     ) -> Result<(Done, Report)> {
         // an edit may mend what keeps it from being opened, and a build says what is still wrong
         let opened = Self::open(tx, site, inputs).unwrap_or_default();
+        if opened.is_none() {
+            site.refuse_anothers(tx)?;
+        }
         make_tables(tx, &inputs.rules)?;
         let done = edit.apply(tx, site, &inputs.rules, author)?;
         let Some(mut memory) = opened else { return Ok((done, Self::build(tx, site, inputs, progress)?.1)) };

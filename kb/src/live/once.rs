@@ -36,7 +36,6 @@ impl KnowledgeBase {
     }
 
     fn build_at(&self, database: &Path, progress: &dyn Progress) -> Result<Report> {
-        self.refuse_anothers(database)?;
         let inputs = self.inputs(progress)?;
         let fresh = !database.exists();
         let outcome = Store::open_or_create(database)
@@ -66,6 +65,7 @@ impl KnowledgeBase {
         tables.extend(tables::read(&site.tables())?);
         let (places, loads) = (self.places_of_map(), self.loads_of_map());
         let built = store.transaction(|tx| {
+            self.refuse_anothers(tx)?;
             let own = tables.iter().map(|table| table.name.as_str());
             let seeded = ["changes", "loads", "robots", "places"].into_iter().chain(own).collect::<Vec<_>>();
             // a map that is a site alone has nothing that anybody edited

@@ -211,6 +211,26 @@ fn what_went_out_comes_back_to_the_letter() {
 }
 
 #[test]
+fn a_database_of_another_site_is_not_taken_over() {
+    let (clinic, shop) = (TestSite::example("clinic").built(), TestSite::example("shop").built());
+    clinic.adit("tune", &["robots", "STAND", "hardness", "3"]).expect_status(0);
+    let history = "SELECT * FROM history";
+    let (db, before) = (at(&clinic, "site.db"), clinic.sqlite3(history));
+    let refused = &["is the database of", "name a file of its own"];
+    for (verb, status) in [("build", 2), ("check", 1)] {
+        shop.adit(verb, &["--db", &db]).expecting(status).complains(refused);
+    }
+    shop.adit("tune", &["products", "cup", "price", "7", "--db", &db]).expecting(2).complains(refused);
+    assert_eq!(clinic.sqlite3(history), before);
+    // a site that is moved keeps its database, whatever its folder is called
+    let moved = clinic.path().join("moved");
+    let copied = Command::new("cp").arg("-r").args([shop.path(), &moved]).status().unwrap();
+    assert!(copied.success());
+    let built = Command::new(adit_tests::adit()).arg("build").arg(&moved).output().unwrap();
+    Ran::new(&built).expect_status(0);
+}
+
+#[test]
 fn quotes_that_are_not_closed_formulas_without_values_and_cells_far_off_are_refused() {
     let site = TestSite::example("shop").built();
     let orders = site.sqlite3("SELECT * FROM orders");
