@@ -15,7 +15,7 @@ use crate::knowledge::tunings;
 use crate::site::rules::{self, Drafts};
 use crate::site::sheet::Sheet;
 
-mod cells;
+pub(crate) mod cells;
 mod close;
 mod errand;
 mod file;

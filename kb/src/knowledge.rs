@@ -387,7 +387,9 @@ impl KnowledgeBase {
         let message = format!("{database} is the database of {name}, which {this} would be filled into");
         let help = match &called {
             None if alone.is_none() => {
-                format!("name a file of its own; if {name} is what this site was called, say so in site.toml: name = \"{name}\"")
+                format!(
+                    "name a file of its own; if {name} is what this site was called, say so in site.toml: name = \"{name}\""
+                )
             }
             _ => "name a file of its own".to_owned(),
         };
@@ -571,6 +573,9 @@ impl KnowledgeBase {
         told.keys = row_keys;
         told.notes = tunings::lay_over(&mut told.classes, &told.keys, &tunings::in_force(tx)?)?;
         self.tell_by_the_clock(tx, &mut told)?;
+        if !told.facts.is_empty() {
+            told.set_unfit_aside(&self.schema(&told));
+        }
         Ok(told)
     }
 

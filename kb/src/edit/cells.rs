@@ -53,7 +53,7 @@ const DERIVED: [&str; 19] = [
 ];
 
 /// The columns of a table that may be edited, its key's first.
-pub(super) fn columns(tx: &mut Tx<'_>, table: &str) -> Result<Vec<RelationColumn>> {
+pub(crate) fn columns(tx: &mut Tx<'_>, table: &str) -> Result<Vec<RelationColumn>> {
     let own: Vec<String> = tx.user_tables()?.into_iter().map(|known| known.name).collect();
     // where the map is not cut into rooms, its places stand in the table alone
     let is_map = table == "places" && tx.site_value(LAYOUT)?.is_some();

@@ -14,6 +14,7 @@ use crate::knowledge::KnowledgeBase;
 use crate::knowledge::classes;
 use crate::knowledge::told::attach::REACH;
 use crate::knowledge::told::closing::{self, lists_robots};
+use crate::knowledge::told::kinds::{fixed, unread};
 use crate::knowledge::told::{Object, Told};
 use crate::site::clock::stored;
 use crate::words::number::number;
@@ -34,22 +35,6 @@ pub struct Tell {
     /// Whether the property may be one that no rule reads and nothing gives.
     pub new_property: bool,
 }
-
-/// What values of these properties must be, whatever rules say.
-const KINDS: [(&str, &str, Type); 12] = [
-    ("ROBOTS", "berth", Type::Number),
-    ("ROBOTS", "berth_cost", Type::Number),
-    ("SPACES", "closed", Type::Truth),
-    ("DOORWAYS", "closed", Type::Truth),
-    ("DOORWAYS", "closed_from", Type::Text),
-    ("PRIME_AREAS", "open", Type::Truth),
-    ("ROOMS", "hardness", Type::Number),
-    ("ROOMS", "action", Type::Text),
-    ("ROOMS", "passable", Type::Truth),
-    ("DOORS", "hardness", Type::Number),
-    ("DOORS", "action", Type::Text),
-    ("DOORS", "passable", Type::Truth),
-];
 
 impl Tell {
     /// The columns of the row that keeps the fact.
@@ -148,17 +133,10 @@ impl Tell {
             let message = format!("{class}.{property} says which object it is, and cannot be told");
             return Err(Error::said(Code::TellKey, message, None));
         }
-        let mut known: Vec<&str> = schema.properties(class).collect();
-        for rule in rules.rules() {
-            let named = rule.reads().chain(rule.sets()).filter(|name| name.class == class);
-            known.extend(named.map(|name| name.property.as_str()));
-        }
-        known.extend(KINDS.iter().filter(|(of, _, _)| *of == class).map(|(_, name, _)| *name));
-        if self.new_property || known.contains(&property) || lists_robots(class, property) {
+        let Some((message, meant)) = unread(class, property, schema, rules).filter(|_| !self.new_property)
+        else {
             return Ok(());
-        }
-        let message = format!("no rule reads {class}.{property}, and nothing gives it");
-        let meant = did_you_mean(property, known.iter().copied());
+        };
         let help = meant.unwrap_or_else(|| "--new tells a property that no rule reads yet".to_owned());
         Err(Error::said(Code::TellUnknownProperty, message, Some(help)))
     }
@@ -279,11 +257,6 @@ fn unknown(what: &str, name: &str, names: impl Iterator<Item = String>) -> Error
     let help = did_you_mean(name, names.iter().map(String::as_str));
     let help = help.or_else(|| Some(format!("say a {what}'s name, or a point as x,y")));
     Error::said(Code::TellUnknownObject, format!("there is no {what} `{name}`"), help)
-}
-
-fn fixed(class: &str, property: &str) -> Option<Type> {
-    let found = KINDS.iter().find(|(of, name, _)| *of == class && *name == property);
-    found.map(|(_, _, kind)| *kind)
 }
 
 /// The type of what rules concluded of a property so far.

@@ -2,6 +2,7 @@
 
 pub mod attach;
 pub mod closing;
+pub mod kinds;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::hash::{Hash, Hasher};
@@ -19,6 +20,7 @@ use crate::words::number::number;
 use crate::words::suggest::did_you_mean;
 pub use attach::Attached;
 pub use closing::{Closable, Line, Whom};
+use kinds::Unfit;
 
 /// Classes and facts that people, robots and tables tell.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -31,6 +33,8 @@ pub struct Told {
     pub numbered: BTreeSet<String>,
     /// Facts about single objects that hold now, the oldest first: of two about one property the later one counts.
     pub facts: Vec<Fact>,
+    /// Facts whose values their properties cannot hold.
+    pub unfit: Vec<Unfit>,
     /// Facts whose time is over, by number.
     pub expired: Vec<i64>,
     /// The next moment at which a fact ends, or opening hours begin or end; in UTC.
@@ -163,7 +167,10 @@ impl Told {
 
     /// Whether the same counts: classes and facts, whatever the clock says of the time after.
     pub fn counts_as(&self, other: &Self) -> bool {
-        self.classes == other.classes && self.facts == other.facts && self.laid == other.laid
+        self.classes == other.classes
+            && self.facts == other.facts
+            && self.unfit == other.unfit
+            && self.laid == other.laid
     }
 
     /// What ended, opened or closed by itself since then, in sentences.
@@ -228,15 +235,17 @@ impl Told {
             .collect();
         let over = |id: &i64| Standing { told: *id, state: "expired".to_owned(), keys: Vec::new() };
         standings.extend(self.expired.iter().map(over));
+        let lost = |of: &Unfit| Standing { told: of.fact.id, state: "lost".to_owned(), keys: Vec::new() };
+        standings.extend(self.unfit.iter().map(lost));
         standings.sort_by_key(|standing| standing.told);
         standings
     }
 
-    /// Facts that no longer find what they are about, in sentences.
+    /// Facts that count for nothing, since they no longer find what they are about or cannot be, in sentences.
     pub fn lost(&self, attached: &Attached) -> Vec<String> {
         let lost =
             self.facts.iter().filter(|fact| attached.keys(fact.id).is_empty() && fact.closes().is_none());
-        lost.map(Fact::lost).collect()
+        lost.map(Fact::lost).chain(self.unfit.iter().map(Unfit::said)).collect()
     }
 
     /// What facts close where that is not for rules to say.

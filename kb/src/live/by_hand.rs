@@ -1,10 +1,15 @@
 //! What other programs wrote into the database that counts for nothing, in sentences.
 
+use std::collections::BTreeSet;
+
 use adit_db::Tx;
 use adit_db::robot::{Change, State};
+use adit_engine::RuleBase;
 
+use crate::edit::cells;
 use crate::error::Result;
 use crate::knowledge::KnowledgeBase;
+use crate::knowledge::told::{Fact, kinds};
 
 /// Tables that follow from everything else, where a map is cut into rooms.
 const FOLLOWING: [&str; 3] = ["rooms", "doors", "places"];
@@ -13,9 +18,32 @@ const FOLLOWING: [&str; 3] = ["rooms", "doors", "places"];
 const NAMED: usize = 3;
 
 /// A word about each kind of it.
-pub fn remarks(tx: &mut Tx<'_>, site: &KnowledgeBase) -> Result<Vec<String>> {
-    let put_back = if site.site().has_rooms() { put_back(tx)? } else { None };
-    Ok([put_back, orphans(tx)?, empty_tunings(tx)?].into_iter().flatten().collect())
+pub fn remarks(tx: &mut Tx<'_>, site: &KnowledgeBase, rules: &RuleBase) -> Result<Vec<String>> {
+    let [put_back, carried] =
+        if site.site().has_rooms() { [put_back(tx)?, carried_by_nobody(tx)?] } else { [None, None] };
+    let others = [put_back, orphans(tx)?, carried, empty_tunings(tx)?, vain_tunings(tx)?];
+    Ok(others.into_iter().flatten().chain(unread_facts(tx, site, rules)?).collect())
+}
+
+/// Facts that another program wrote about properties that nobody reads.
+fn unread_facts(tx: &mut Tx<'_>, site: &KnowledgeBase, rules: &RuleBase) -> Result<Vec<String>> {
+    let marks = tx.stale_marks()?;
+    if !marks.iter().any(|mark| mark.table == "told") {
+        return Ok(Vec::new());
+    }
+    let mut told = site.told(tx, rules)?;
+    let facts = std::mem::take(&mut told.facts);
+    let schema = site.schema(&told);
+    let is_written = |fact: &&Fact| {
+        let id = fact.id.to_string();
+        schema.has(&fact.class) && marks.iter().any(|mark| mark.table == "told" && mark.key == id)
+    };
+    let remark = |fact: &Fact| {
+        let (message, meant) = kinds::unread(&fact.class, &fact.property, &schema, rules)?;
+        let meant = meant.map_or_else(String::new, |meant| format!("; {meant}"));
+        Some(format!("{} counts for nothing: {message}{meant}", fact.name()))
+    };
+    Ok(facts.iter().filter(is_written).filter_map(remark).collect())
 }
 
 /// Rows of tables that follow from everything else.
@@ -41,15 +69,44 @@ fn orphans(tx: &mut Tx<'_>) -> Result<Option<String>> {
         let missing = of.into_iter().find(|state| !is_there(&change.robot, state));
         missing.map(|state| format!("{}/{state}", change.robot))
     };
-    let mut unknown: Vec<String> = changes.iter().filter_map(unknown).collect();
-    unknown.sort_unstable();
-    unknown.dedup();
-    let count = unknown.len();
-    let more = if count > NAMED { format!(" and {} more", count - NAMED) } else { String::new() };
-    Ok((count > 0).then(|| {
-        let named = unknown[..count.min(NAMED)].join(", ");
-        format!("changes has rows of states that robots has not: {named}{more}; they count for nothing")
+    Ok(listed(changes.iter().filter_map(unknown)).map(|unknown| {
+        format!("changes has rows of states that robots has not: {unknown}; they count for nothing")
     }))
+}
+
+/// Loads of robots that there are not.
+fn carried_by_nobody(tx: &mut Tx<'_>) -> Result<Option<String>> {
+    let (states, loads) = (tx.states()?, tx.loads()?);
+    let unknown = loads.into_iter().map(|load| load.robot);
+    let unknown = unknown.filter(|robot| !states.iter().any(|state| state.robot == *robot));
+    Ok(listed(unknown).map(|unknown| {
+        format!("loads has rows of robots that there are not: {unknown}; they count for nothing")
+    }))
+}
+
+/// A few of the names, each once, and how many more there are; `None` where there is none.
+fn listed(names: impl Iterator<Item = String>) -> Option<String> {
+    let names: BTreeSet<String> = names.collect();
+    let (named, more) = (names.iter().take(NAMED).cloned(), names.len().saturating_sub(NAMED));
+    let listed = named.collect::<Vec<_>>().join(", ");
+    (!names.is_empty()).then(|| if more > 0 { format!("{listed} and {more} more") } else { listed })
+}
+
+/// Cells of tunings that are on, of what is no table that is tuned.
+fn vain_tunings(tx: &mut Tx<'_>) -> Result<Option<String>> {
+    let active = tx.active_tunings()?;
+    let mut vain = Vec::new();
+    for cell in tx.tuning_cells()?.into_iter().filter(|cell| active.contains(&cell.tuning)) {
+        if cells::columns(tx, &cell.table).is_err() {
+            vain.push(format!("{}.{}.{}", cell.table, cell.key, cell.column));
+        }
+    }
+    let said = |vain: String| {
+        format!(
+            "tunings set what nobody tunes, since it follows from other things or is not there: {vain}; it counts for nothing"
+        )
+    };
+    Ok(listed(vain.into_iter()).map(said))
 }
 
 /// Tunings that are on and set nothing.

@@ -139,7 +139,7 @@ impl Memory {
         inputs: &Arc<Inputs>,
         progress: &dyn Progress,
     ) -> Result<(Self, Report)> {
-        let by_hand = by_hand::remarks(tx, site)?;
+        let by_hand = by_hand::remarks(tx, site, &inputs.rules)?;
         let concluded = if generation::read(tx)? > 0 { Some(tx.derivations()?) } else { None };
         let starts = tx.starts()?;
         make_tables(tx, &inputs.rules)?;

@@ -159,11 +159,40 @@ fn what_is_written_by_hand_and_counts_for_nothing_is_refused_or_said() {
     assert_eq!(site.sqlite3("SELECT count(*) FROM rooms WHERE hardness = 50"), ["0"]);
     site.outside_edit("INSERT INTO tuning_cells VALUES ('nigth', 'robots', 'STAND', 'hardness', 9)");
     site.adit("build", &[]).expecting(0).complains(&["a key is whole: `robot/STAND`"]);
+    site.outside_edit("INSERT INTO tuning_cells VALUES ('nigth', 'rooms', '3', 'hardness', 9)");
+    site.outside_edit("INSERT INTO loads VALUES ('robbot', 'bed', 1, 1, 0)");
+    site.adit("build", &[]).expecting(0).complains(&[
+        "tunings set what nobody tunes",
+        "rooms.3.hardness; it counts for nothing",
+        "loads has rows of robots that there are not: robbot; they count for nothing",
+    ]);
     site.outside_edit("DELETE FROM robots");
     site.adit("build", &[]).expecting(0).complains(&[
         "the table robots was empty: robots, changes and loads are as",
         "robots.toml has them again",
     ]);
+}
+
+#[test]
+fn a_fact_that_its_property_cannot_hold_or_that_nobody_reads_is_said_and_stops_nothing() {
+    let site = TestSite::example("starter").with("site.toml", STARTER).built();
+    let before = site.sqlite3("SELECT * FROM doors");
+    let told = "INSERT INTO told (class, key, x, y, property, kind, value) VALUES";
+    site.outside_edit(&format!(
+        "{told} ('DOORS', NULL, 6, 3.5, 'passable', 'text', 'no'), ('ROBOTS', 'robot/STAND', NULL, NULL, 'hardnes', \
+         'number', 3), ('DOORWAYS', NULL, 6, 3.5, 'closed_to', 'truth', 1)"
+    ));
+    site.adit("build", &[]).expecting(0).complains(&[
+        "DOORS.passable holds truth values, and its value is one of texts",
+        "no rule reads ROBOTS.hardnes, and nothing gives it; did you mean `hardness`?",
+        "DOORWAYS.closed_to holds texts, and its value is one of truth values",
+    ]);
+    assert_eq!(site.sqlite3("SELECT * FROM doors"), before);
+    assert_eq!(site.sqlite3("SELECT told || state FROM told_states"), ["1lost", "2attached", "3lost"]);
+    site.adit("check", &[]).expecting(1).complains(&["counts for nothing", "--retract ID"]);
+    site.adit("tell", &["--retract", "1"]).expect_status(0);
+    site.adit("tell", &["--retract", "3"]).expect_status(0);
+    assert_eq!(site.sqlite3("SELECT told || state FROM told_states"), ["2attached"]);
 }
 
 #[test]
