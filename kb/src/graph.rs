@@ -320,6 +320,11 @@ impl SiteGraph {
         self.doors.binary_search_by_key(&key, |door| door.door).ok().map(DoorIndex::new)
     }
 
+    /// The node of a place.
+    pub fn place_node(&self, place: &str) -> Option<i64> {
+        self.index.place_by_name.get(place).copied().map(place_node)
+    }
+
     /// The place whose node this is.
     pub fn place_of(&self, node: i64) -> Option<&str> {
         let index = usize::try_from(-node - 1).ok()?;

@@ -11,7 +11,7 @@ use adit_db::stale::Mark;
 
 use super::report::{Concluded, Report, Routes};
 use super::routes::{KeptRoutes, Renewed};
-use super::trees::{self, KeptSoFar, Plan};
+use super::trees::{self, KeptSoFar, Plan, ToKeep};
 use super::{by_hand, courses};
 use crate::edit::react::{Recalled, make_tables};
 use crate::edit::{Done, Edit};
@@ -127,7 +127,7 @@ impl Memory {
         state.generation = generation;
         let floor = (&**state.graph(), &*state.gauge);
         let plan = trees::plan(floor, &site.robots(tx)?, site.site().starts_in_rooms())?;
-        let before = Before { graph: state.graph(), starts: &starts };
+        let before = Before { graph: state.graph(), starts: &starts, places: &state.graph().places };
         let is_same = before.same_starts(&plan.starts);
         Ok(is_same.then(|| Self { routes_due: !marks.is_empty(), ..Self::of(state, kept, plan, basis) }))
     }
@@ -146,7 +146,8 @@ impl Memory {
         let told = site.told(tx, &inputs.rules)?;
         let mut state = State::new(Arc::clone(site), Arc::clone(inputs), cut(tx)?);
         let graph = Arc::clone(state.graph());
-        let before = Before { graph: &graph, starts: &starts };
+        let places = tx.places()?;
+        let before = Before { graph: &graph, starts: &starts, places: &places };
         let mut step = state.step_and_react(tx, told, Recalled::OfLastBuild, progress)?;
         let (reacted, failed) = (std::mem::take(&mut step.reacted), std::mem::take(&mut step.failed));
         let mut clock = Stopwatch::new();
@@ -191,7 +192,7 @@ impl Memory {
         let followed = memory.follow(tx, Some(done.clone()), Promptness::AtOnce, progress)?;
         let Accepted { weighed, conclusions, reacted, routes, mut stages, .. } = memory.accept(followed);
         stages.insert(0, inputs.stage.clone());
-        let before = Before { graph: &graph, starts: &starts };
+        let before = Before { graph: &graph, starts: &starts, places: &graph.places };
         let routes = routes.unwrap_or_default();
         let mut report = Report::new(before, weighed.as_ref(), &mut memory.state, (routes, stages));
         (report.conclusions, report.reacted) = (conclusions, reacted);
@@ -241,7 +242,8 @@ impl Memory {
             (false, Promptness::Later) if step.courses.is_none() => self.routes.renew(&graph, &step.weighed),
             _ => None,
         };
-        let before = Before { graph: state.graph(), starts: &self.routes.plan().starts };
+        let old = state.graph();
+        let before = Before { graph: old, starts: &self.routes.plan().starts, places: &old.places };
         if step.is_anew {
             let (kept, plan, routes, generation) =
                 write_all(tx, state, &step, (before, &self.basis), progress, &mut clock)?;
@@ -260,7 +262,8 @@ impl Memory {
             } else {
                 KeptSoFar::Of(state.graph(), self.routes.plan())
             };
-            let (plan, mut routes) = trees::keep(tx, (state, &step), (before, so_far), progress)?;
+            let to_keep = ToKeep::look(tx, (state, &step), (before, so_far))?;
+            let (plan, mut routes) = trees::keep(tx, (state, &step), to_keep, progress)?;
             if let Some(now) = &step.courses {
                 routes = courses::keep(tx, state.courses.as_deref(), now)?;
             }
@@ -346,13 +349,14 @@ fn write_all(
 ) -> Result<(Kept, Plan, Routes, u64)> {
     let site = &state.site;
     progress.stage("database");
+    let so_far = if step.is_cut_anew { KeptSoFar::OfAnotherCut } else { KeptSoFar::Stored };
+    let to_keep = ToKeep::look(tx, (state, step), (before, so_far))?;
     let kept = Kept::write_all(tx, state, step)?;
     tx.replace_site_hours(&site.site().hours)?;
     keep_standings(tx, &step.told, &step.attached)?;
     clock.lap("database");
     progress.stage("routes");
-    let so_far = if step.is_cut_anew { KeptSoFar::OfAnotherCut } else { KeptSoFar::Stored };
-    let (plan, mut routes) = trees::keep(tx, (state, step), (before, so_far), progress)?;
+    let (plan, mut routes) = trees::keep(tx, (state, step), to_keep, progress)?;
     if let Some(now) = &step.courses {
         routes = courses::keep(tx, state.courses.as_deref(), now)?;
     }

@@ -1,6 +1,6 @@
 //! What a build or an edit made and changed, counted in the expert's own terms.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::sync::Arc;
 
 use adit_db::Cell;
@@ -138,15 +138,18 @@ impl Routes {
         let (mut changed, mut rerouted) = (0, 0);
         let between_places = !graph.graph().is_on_doors();
         self.between_places = between_places;
-        let nodes = old_rows.nodes().chain(new_rows.nodes().filter(|node| old_rows.row(*node).is_none()));
+        let rooms = old_rows.nodes().chain(new_rows.nodes().filter(|node| old_rows.row(*node).is_none()));
         // where rooms weigh metres the others are points at which ways bend, and nobody's goals
-        let is_goal = |place: &str| !between_places || place != start.name;
-        let is_meant = |node: &i64| graph.place_of(*node).map_or(!between_places, is_goal);
-        for node in nodes.filter(is_meant) {
-            let (old_row, new_row) = (old_rows.row(node), new_rows.row(node));
+        let rooms = rooms.filter(|node| !between_places && graph.place_of(*node).is_none());
+        // places are numbered otherwise once one comes or goes, and of one that is new no route has changed
+        let places = graph.places.iter().filter(|place| !between_places || place.place != start.name);
+        let places =
+            places.filter_map(|place| Some((before.node_of(&place.place)?, graph.place_node(&place.place)?)));
+        for (was, node) in rooms.map(|room| (room, room)).chain(places) {
+            let (old_row, new_row) = (old_rows.row(was), new_rows.row(node));
             let costs = (old_row.map(then), new_row.map(now));
             self.weigh(costs.0, costs.1);
-            let other_way = old_ways.of(node) != new_ways.of(node);
+            let other_way = old_ways.of(was) != new_ways.of(node);
             let are_both = old_row.is_some() && new_row.is_some();
             let differ = costs.0.map(f64::to_bits) != costs.1.map(f64::to_bits);
             changed += usize::from(differ || other_way);
@@ -175,8 +178,15 @@ impl Routes {
 
 impl Routes {
     /// Compares the routes between places where the rooms were cut anew, so that trees cannot be compared.
-    pub fn compare(&mut self, old: &PlaceCosts, new: &PlaceCosts) {
-        for key in old.keys().chain(new.keys().filter(|key| !old.contains_key(*key))) {
+    pub fn compare(&mut self, before: Before<'_>, old: &PlaceCosts, new: &PlaceCosts) {
+        let starts: BTreeSet<_> =
+            before.starts.iter().map(|start| (start.robot.as_str(), start.name.as_str())).collect();
+        // of a robot or a place that is new no route has changed
+        let was_there = |(robot, start, goal): &(String, String, String)| {
+            starts.contains(&(robot.as_str(), start.as_str())) && before.node_of(goal).is_some()
+        };
+        let found = new.keys().filter(|key| !old.contains_key(*key) && was_there(key));
+        for key in old.keys().chain(found) {
             let (old, new) = (old.get(key).copied(), new.get(key).copied());
             // another cut moves crossing points by a hair
             let same = matches!((old, new), (Some(old), Some(new)) if (old - new).abs() <= 1e-3 * old.abs());

@@ -130,21 +130,43 @@ pub enum KeptSoFar<'a> {
     Of(&'a SiteGraph, &'a Plan),
 }
 
+/// The routes that are to be kept once a step is accepted, and what is kept so far, looked at before anything is written.
+pub struct ToKeep<'a> {
+    plan: Plan,
+    before: Before<'a>,
+    so_far: KeptSoFar<'a>,
+    /// What routes between places cost so far; `None` where the starts are those of before, and rows can be compared.
+    old: Option<PlaceCosts>,
+}
+
+impl<'a> ToKeep<'a> {
+    pub fn look(
+        tx: &mut Tx<'_>,
+        (state, step): (&State, &Step),
+        (before, so_far): (Before<'a>, KeptSoFar<'a>),
+    ) -> Result<Self> {
+        let site = &state.site;
+        let graph: &SiteGraph = state.graph_after(step);
+        let floor = (graph, state.gauge_after(step));
+        let plan = plan(floor, &site.robots(tx)?, site.site().starts_in_rooms())?;
+        let comparable = !matches!(so_far, KeptSoFar::OfAnotherCut) && before.same_starts(&plan.starts);
+        let old = (!comparable).then(|| place_costs(tx, before, graph)).transpose()?;
+        Ok(Self { plan, before, so_far, old })
+    }
+}
+
 /// Keeps the routes of a state once a step is accepted. Where the starts are those of before, only rows that differ are
 /// written.
 pub fn keep(
     tx: &mut Tx<'_>,
     (state, step): (&State, &Step),
-    (before, so_far): (Before<'_>, KeptSoFar<'_>),
+    ToKeep { plan, before, so_far, old }: ToKeep<'_>,
     progress: &dyn Progress,
 ) -> Result<(Plan, Routes)> {
-    let site = &state.site;
     let graph: &SiteGraph = state.graph_after(step);
     let gauge = state.gauge_after(step);
-    let plan = plan((graph, gauge), &site.robots(tx)?, site.site().starts_in_rooms())?;
-    let comparable = !matches!(so_far, KeptSoFar::OfAnotherCut) && before.same_starts(&plan.starts);
+    let comparable = old.is_none();
     let mut routes = Routes::new(plan.starts.len(), comparable);
-    let old = if comparable { PlaceCosts::new() } else { place_costs(tx, before, graph)? };
     let mut new = PlaceCosts::new();
     let has_same_ends =
         matches!(so_far, KeptSoFar::Of(old, _) if comparable && keeps_rooms(old) == keeps_rooms(graph));
@@ -190,7 +212,7 @@ pub fn keep(
         }
     }
     if !before.starts.is_empty() {
-        routes.compare(&old, &new);
+        routes.compare(before, &old.unwrap_or_default(), &new);
     }
     routes.sort();
     Ok((plan, routes))

@@ -4,7 +4,7 @@
 use std::fs;
 use std::process::Command;
 
-use adit_tests::TestSite;
+use adit_tests::{Ran, TestSite};
 
 /// Builds the paper's example, spoils one of its files, and expects a build to fail with these words,
 /// status 2, and an untouched database.
@@ -365,4 +365,18 @@ fn files_that_are_not_utf_8_text_are_named_with_what_to_do() {
         let said = [file, "it is not UTF-8 text", "save it as plain text in UTF-8"];
         site.adit("build", &["--reseed"]).expecting(2).complains(&said);
     }
+}
+
+#[test]
+fn a_database_where_a_site_is_asked_for_is_told_from_a_map() {
+    let site = TestSite::example("paper").built();
+    let database = site.path().join("site.db");
+    let asked = |file: &std::path::Path| {
+        let command = Command::new(adit_tests::adit()).arg("sql").arg(file).arg("SELECT 1").output();
+        Ran::new(&command.unwrap()).expecting(2)
+    };
+    asked(&database).complains(&["is a database", &format!("say {}", site.path().display())]);
+    let copy = site.path().join("kept.db");
+    std::fs::copy(&database, &copy).unwrap();
+    asked(&copy).complains(&["is a database", "say the site's folder, and --db"]);
 }

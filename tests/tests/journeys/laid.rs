@@ -69,6 +69,8 @@ fn a_place_that_is_laid_is_one_of_the_map_until_it_ends_is_lifted_or_taken_back(
     let shown = site.adit("lay", &["place", "charger", "9,2", "--dry-run"]).expecting(0).stdout;
     assert!(shown.contains("charger"), "{shown}");
     assert_eq!(content(&site), before, "nothing was changed");
+    let unchanged = "between places none costs anything else";
+    assert!(shown.contains(unchanged), "{shown}");
     site.adit("lay", &["place", "charger", "9,2", "--until", "2h", "--why", "a new robot"]).expect_status(0);
     let way = asked(&["--json"]).json();
     assert_eq!(way["waypoints"].as_array().unwrap().last().unwrap()["x"], 9.0);
@@ -83,12 +85,31 @@ fn a_place_that_is_laid_is_one_of_the_map_until_it_ends_is_lifted_or_taken_back(
     site.adit("lay", &["area", "charger", "1,1 2,2"])
         .expecting(2)
         .complains(&["the place `charger` lies there already"]);
-    site.adit("lift", &["charger"]).expect_status(0);
+    let lifted = site.adit("lift", &["charger"]).expecting(0).stdout;
+    assert!(lifted.contains(unchanged), "{lifted}");
     assert_eq!(content(&site), before);
     site.adit("undo", &[]).expect_status(0);
     asked(&[]).expect_status(0);
     site.adit("undo", &[]).expect_status(0);
     assert_eq!(content(&site), before);
+}
+
+#[test]
+fn a_place_more_changes_no_route_between_the_others() {
+    let starts = "map = \"map.toml\"\nrobots = \"robots.toml\"\nstarts = [\"window\"]\n";
+    let site = TestSite::example("starter").with("site.toml", starts).built();
+    let unchanged = "no route between places costs anything else or leads another way";
+    // one that is numbered before the others
+    let laid = site.adit("lay", &["place", "charger", "9,2"]).expecting(0).stdout;
+    assert!(laid.contains(unchanged), "{laid}");
+    site.write("site.toml", format!("{starts}[[place]]\nname = \"basin\"\nat = [9, 3]\n"));
+    let built = site.adit("build", &["--json"]).json();
+    assert_eq!(built["routes"]["changes"], serde_json::json!([]), "{built:#}");
+    let undone = site.adit("undo", &[]).expecting(0).stdout;
+    assert!(undone.contains(unchanged), "{undone}");
+    site.write("site.toml", starts);
+    let built = site.adit("build", &["--json"]).json();
+    assert_eq!(built["routes"]["changes"], serde_json::json!([]), "{built:#}");
 }
 
 #[test]
