@@ -137,6 +137,18 @@ pub struct Relation {
     pub columns: Vec<RelationColumn>,
 }
 
+impl Relation {
+    /// The column of this name.
+    pub fn column(&self, name: &str) -> Option<&RelationColumn> {
+        self.columns.iter().find(|column| column.name == name)
+    }
+
+    /// What a row has in the column of this name.
+    pub fn value(&self, name: &str, row: usize) -> Option<&Cell> {
+        self.column(name)?.values.get(row)
+    }
+}
+
 /// A foreign key: columns that hold the key of a row of another table.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, utoipa::ToSchema)]
 pub struct Reference {

@@ -85,7 +85,7 @@ fn read(path: &Path, settings: &MapSettings) -> Result<(World, MapReport), MapEr
         }
         _ => {
             let message = format!("the map `{name}` is of no known format");
-            let help = "known: .toml (vector map), .yaml and .yml (ROS map with its image), .json and .geojson (lane graphs)";
+            let help = "known: .toml (vector map), .yaml and .yml (ROS map with its image, or a lane graph), .json, .geojson and .tmap2 (lane graphs)";
             return Err(Problem::of_file(Code::UnknownFormat, message).with_help(help).into());
         }
     };

@@ -12,7 +12,8 @@ use crate::error::Result;
 pub struct CloseArgs {
     #[command(flatten)]
     pub site: SiteArgs,
-    /// A doorway, a space, an area or a named door by its name; a point `x,y`, or `x,y@90` where a robot was blocked
+    /// A doorway, a space, an area or a named door by its name, or a lane, node, lift or channel; a point `x,y`, or `x,y@90` where
+    /// a robot was blocked
     #[arg(allow_hyphen_values = true)]
     pub what: String,
     /// The robot that is kept out, and no other one; may be said again

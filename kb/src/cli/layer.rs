@@ -78,7 +78,7 @@ pub fn run(site: &SiteArgs, name: &str, to: &Path) -> Result<()> {
 
 /// The places between which there is no route, each as `from dock to lobby`.
 fn apart(tx: &mut Tx<'_>, routes: &Relation) -> Result<Vec<String>> {
-    let column = |name: &str| routes.columns.iter().find(|column| column.name == name);
+    let column = |name: &str| routes.column(name);
     let [Some(robots), Some(starts), Some(goals)] = ["robot", "start", "goal"].map(column) else {
         return Ok(Vec::new());
     };
@@ -108,7 +108,7 @@ fn of_areas(tx: &mut Tx<'_>) -> Result<BTreeMap<String, Map<String, Value>>> {
     }
     let relation = tx.read_table(table)?;
     let mut said = BTreeMap::<String, Map<String, Value>>::new();
-    let names = relation.columns.iter().find(|column| column.name == known[0]);
+    let names = relation.column(known[0]);
     for (row, name) in names.iter().flat_map(|names| names.values.iter().enumerate()) {
         let Cell::Text(name) = name else { continue };
         let of = said.entry(name.clone()).or_default();

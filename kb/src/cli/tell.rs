@@ -96,7 +96,7 @@ fn list(knowledge: &KnowledgeBase, as_json: bool) -> Result<()> {
         return Ok(());
     }
     let at = |name: &str, row: usize| {
-        let column = facts.columns.iter().find(|column| column.name == name);
+        let column = facts.column(name);
         column.map_or_else(String::new, |column| text(&column.values[row]))
     };
     let cells = |row: usize| {

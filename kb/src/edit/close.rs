@@ -22,6 +22,7 @@ use crate::knowledge::tables;
 use crate::knowledge::told::closing::{CLOSED, CLOSED_FROM, CLOSED_TO, OPEN_TO};
 use crate::knowledge::{KnowledgeBase, LAYOUT};
 use crate::plan::course::numbered;
+use crate::words::number::number;
 use crate::words::suggest::{did_you_mean, listed};
 
 /// What a channel is called, before its number.
@@ -71,8 +72,12 @@ impl Close {
         };
         if property != CLOSED && tx.site_value(LAYOUT)?.is_some() {
             let message = format!("`{what}` is closed to everybody, or to nobody");
-            let help =
-                "which robots are kept out is for a rule of PASSAGES, WAYS or TRAVELS to say".to_owned();
+            let classes = match class {
+                "CHANNELS" => "PASSAGES",
+                "DOORWAYS" => "WAYS",
+                _ => "TRAVELS",
+            };
+            let help = format!("which robots are kept out is for a rule of {classes} to say");
             return Err(Error::said(Code::TellUsage, message, Some(help)));
         }
         Ok(Tell {
@@ -153,9 +158,22 @@ fn opens(fact: &Row) -> bool {
     fact.property == CLOSED && fact.value == adit_db::Cell::Integer(0)
 }
 
-/// A word about a place by whose name a space was closed that is called otherwise.
+/// A word about a place by whose name a space was closed that is called otherwise, or about what a point means on a map that is
+/// not cut into rooms.
 pub(super) fn by_place(tx: &mut Tx<'_>, what: &str) -> Result<Option<String>> {
-    if tx.site_value(LAYOUT)?.is_some() || place::split(what).is_some() {
+    let is_point = place::split(what).is_some();
+    if tx.site_value(LAYOUT)?.is_some() {
+        let meant = if is_point { of_map(tx, what.trim()).ok() } else { None };
+        return Ok(meant.map(|(class, key)| {
+            let of_map = match class {
+                "LANES" => format!("lane {key}"),
+                "CHANNELS" => format!("{CHANNEL} {key}"),
+                _ => key,
+            };
+            format!("{what} is at {of_map}, and that is closed")
+        }));
+    }
+    if is_point {
         return Ok(None);
     }
     let (what, building) = (what.trim(), Building::read(tx)?);
@@ -353,6 +371,9 @@ fn of_map(tx: &mut Tx<'_>, what: &str) -> Result<(&'static str, String)> {
         return Ok(("DOORWAYS", what.to_owned()));
     }
     if let Some((at, heading)) = point {
+        if let Some(lane) = lanes::at(tx, what, (at, heading))? {
+            return Ok(lane);
+        }
         let far = |doorway: &&Doorway| Building::segment(doorway).distance(at);
         let near = building.doorways.iter().min_by(|one, other| far(one).total_cmp(&far(other)));
         if let Some(doorway) = near.filter(|doorway| far(doorway) <= NEAR_M) {
@@ -378,16 +399,26 @@ fn of_map(tx: &mut Tx<'_>, what: &str) -> Result<(&'static str, String)> {
     let mut known: Vec<String> = channels.iter().map(|(number, _)| format!("channel {number}")).collect();
     known.extend(building.doorways.iter().map(Building::name));
     known.extend(lanes);
-    let help = match (did_you_mean(what, known.iter().map(String::as_str)), known.first()) {
+    // of several graphs a lane is called by its graph and number
+    let ending = what.rsplit_once(' ').map(|(_, key)| format!(":{key}"));
+    let of_graphs = known.iter().filter(|name| ending.as_ref().is_some_and(|ending| name.ends_with(ending)));
+    let of_graphs: Vec<String> = of_graphs.map(|name| format!("`{name}`")).collect();
+    let meant = (!of_graphs.is_empty())
+        .then(|| format!("did you mean {}?", of_graphs.join(" or ")))
+        .or_else(|| did_you_mean(what, known.iter().map(String::as_str)));
+    let help = match (meant, known.first()) {
         (Some(help), _) => help,
         (None, Some(first)) => format!("what can be closed here is called like `{first}`"),
         (None, None) => "nothing of this map can be closed".to_owned(),
     };
-    Err(Error::said(
-        Code::TellUnknownObject,
-        format!("the site has nothing called `{what}` that could be closed"),
-        Some(help),
-    ))
+    let message = match point {
+        Some((at, _)) => {
+            let (x, y) = (number(at.x), number(at.y));
+            format!("nothing that could be closed is within {NEAR_M} m of {x},{y}")
+        }
+        None => format!("the site has nothing called `{what}` that could be closed"),
+    };
+    Err(Error::said(Code::TellUnknownObject, message, Some(help)))
 }
 
 /// The channels that can be closed, by number; none of a map that has no such.
@@ -396,9 +427,10 @@ fn channels(tx: &mut Tx<'_>) -> Result<Vec<(usize, Rect)>> {
         return Ok(Vec::new());
     }
     let relation = tx.read_table("channels")?;
-    let column = |name: &str| relation.columns.iter().find(|column| column.name == name);
-    let (Some(_), Some(numbers)) = (column(CLOSED), column(CHANNEL)) else { return Ok(Vec::new()) };
-    let real = |name: &str, row: usize| match column(name).and_then(|column| column.values.get(row)) {
+    let (Some(_), Some(numbers)) = (relation.column(CLOSED), relation.column(CHANNEL)) else {
+        return Ok(Vec::new());
+    };
+    let real = |name: &str, row: usize| match relation.value(name, row) {
         Some(adit_db::Cell::Real(value)) => Some(*value),
         Some(adit_db::Cell::Integer(value)) => Some(*value as f64),
         _ => None,

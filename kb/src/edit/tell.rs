@@ -263,8 +263,7 @@ fn unknown(what: &str, name: &str, names: impl Iterator<Item = String>) -> Error
 fn concluded(tx: &mut Tx<'_>, class: &str, property: &str) -> Result<Option<Type>> {
     let class = class.to_lowercase();
     let table = tx.read_table("derivations")?;
-    let column =
-        |name: &str| table.columns.iter().find(|column| column.name == name).map(|column| &column.values);
+    let column = |name: &str| table.column(name).map(|column| &column.values);
     let (Some(classes), Some(properties), Some(values)) =
         (column("class"), column("property"), column("value"))
     else {

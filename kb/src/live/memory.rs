@@ -168,6 +168,7 @@ impl Memory {
         report.concluded = kept.derivations().len();
         (report.conclusions, report.reacted, report.failed) = (conclusions, reacted, failed);
         report.notes.extend(by_hand);
+        report.notes.extend(state.courses.iter().flat_map(|courses| courses.notes()));
         Ok((Self::of(state, kept, plan, basis), report))
     }
 

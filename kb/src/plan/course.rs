@@ -79,6 +79,11 @@ pub trait Pathfinder: Send + Sync {
 
     /// What there is of what, in words: `6 channels, 8 junctions`.
     fn summary(&self) -> String;
+
+    /// What of the map as tables have it now counts for nothing, in sentences.
+    fn notes(&self) -> Vec<String> {
+        Vec::new()
+    }
 }
 
 /// A route, or why there is none, with what rules said on the way.

@@ -112,6 +112,11 @@ impl Courses {
         self.finder.summary()
     }
 
+    /// What of the map counts for nothing, in sentences.
+    pub fn notes(&self) -> Vec<String> {
+        self.finder.notes()
+    }
+
     /// Between what routes lead.
     pub fn ends(&self) -> Vec<Place> {
         self.finder.ends()

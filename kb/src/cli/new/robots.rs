@@ -58,13 +58,18 @@ fn of(name: &str) -> Result<String> {
     })
 }
 
-/// A robot's file among others: each of its entries says of which robot it is.
+/// A robot's file among others: each of its entries says of which robot it is, and so do its comments.
 fn named(text: &str, name: &str) -> String {
     let line = |line: &str| {
         let whose = if line.starts_with("[[") {
             format!("robot = {}\n", toml::Value::from(name))
         } else {
             String::new()
+        };
+        let line = if line.starts_with('#') {
+            line.replace(" robot/", &format!(" {name}/"))
+        } else {
+            line.to_owned()
         };
         format!("{line}\n{whose}")
     };

@@ -7,7 +7,7 @@ use adit_db::course::Course as Row;
 use adit_db::place::Place;
 use adit_db::route::{Step, Waypoint};
 use adit_planners::geometry::Point;
-use adit_planners::lanes::{Lane, Node, Station, Use};
+use adit_planners::lanes::{Lane, Node, Station, Use, VehicleType};
 use petgraph::algo::astar;
 use petgraph::graph::{DiGraph, NodeIndex};
 use petgraph::visit::Dfs;
@@ -428,6 +428,27 @@ impl Pathfinder for Routes {
             .map(|(count, what)| counted(count, what))
             .collect::<Vec<_>>()
             .join(", ")
+    }
+
+    fn notes(&self) -> Vec<String> {
+        let graph = &self.now.graph;
+        let is_limited = |vehicle: &VehicleType| {
+            let of_graph =
+                |lane: &&Lane| lane.graph.is_none() || vehicle.graph.is_none() || lane.graph == vehicle.graph;
+            graph.lanes.iter().filter(of_graph).any(|lane| lane.speed_limit.is_some())
+                || graph
+                    .uses
+                    .iter()
+                    .any(|of| of.vehicle_type == vehicle.vehicle_type && of.max_speed.is_some())
+        };
+        let unknown = graph.vehicle_types.iter().filter(|of| of.speed.is_none() && is_limited(of));
+        let unknown: Vec<&str> = unknown.map(|of| of.vehicle_type.as_str()).collect();
+        let Some(first) = unknown.first() else { return Vec::new() };
+        let all = unknown.join(", ");
+        vec![format!(
+            "limits of speed count for nothing while a vehicle's own is unknown, as of {all}: \
+             `adit tune SITE vehicle_types {first} speed 1.5` says it, in m/s"
+        )]
     }
 }
 

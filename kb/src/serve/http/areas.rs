@@ -120,7 +120,7 @@ fn named(tx: &mut Tx<'_>) -> Result<Vec<NamedArea>> {
 }
 
 fn values<'r>(relation: &'r Relation, name: &str) -> &'r [Cell] {
-    let column = relation.columns.iter().find(|column| column.name == name);
+    let column = relation.column(name);
     column.map_or(&[][..], |column| column.values.as_slice())
 }
 

@@ -148,7 +148,7 @@ fn table(relation: &Relation, overridden: Vec<Overridden>) -> TableOf {
     let count = relation.columns.first().map_or(0, |column| column.values.len());
     let mut rows: Vec<usize> = (0..count).collect();
     // robots stand in the order that breaks ties
-    if let Some(position) = relation.columns.iter().find(|column| column.name == "position") {
+    if let Some(position) = relation.column("position") {
         let place = |row: &usize| match position.values[*row] {
             Cell::Integer(place) => place,
             _ => i64::MAX,
@@ -173,7 +173,7 @@ fn table(relation: &Relation, overridden: Vec<Overridden>) -> TableOf {
 
 /// What the table of derivations says of the rows of another, by property.
 fn concluded(derivations: &Relation, table: &TableOf) -> Vec<ConcludedOf> {
-    let column = |name: &str| derivations.columns.iter().find(|column| column.name == name);
+    let column = |name: &str| derivations.column(name);
     let (Some(classes), Some(keys)) = (column("class"), column("key")) else { return Vec::new() };
     let (Some(properties), Some(values)) = (column("property"), column("value")) else { return Vec::new() };
     let of = table.table.to_lowercase();

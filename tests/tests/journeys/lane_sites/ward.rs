@@ -184,6 +184,25 @@ fn a_door_that_a_navigation_graph_only_names_is_closed_by_name() {
 }
 
 #[test]
+fn a_vehicle_that_is_blocked_closes_the_lane_ahead_of_it() {
+    let site = site_of(&world("racks.lif.json"));
+    let built = site.adit("build", &[]).expecting(0);
+    built.complains(&["limits of speed count for nothing", "vehicle_types forklift speed"]);
+    let closed = || site.sqlite3("SELECT key FROM told WHERE class = 'LANES' AND property = 'closed'");
+    // three lanes meet at 6,0: one ends there, one goes on, one turns off
+    site.adit("close", &["6,0@0"]).expecting(0).complains(&["6,0@0 is at lane gate, and that is closed"]);
+    assert_eq!(closed(), ["gate"]);
+    site.adit("open", &["6,0@0"]).expect_status(0);
+    site.adit("close", &["7.2,5.3@10", "--for", "1h"]).expect_status(0);
+    assert_eq!(closed(), ["across"]);
+    site.adit("undo", &[]).expect_status(0);
+    site.adit("close", &["6,0@45"]).expecting(2).complains(&["lies on lane gate and on lane up"]);
+    site.adit("close", &["6,0"]).expecting(2).complains(&["or the heading as well"]);
+    site.adit("close", &["60,2@0"]).expecting(2).complains(&["within 1.5 m of 60,2"]);
+    assert_eq!(closed(), [""; 0]);
+}
+
+#[test]
 fn a_name_of_two_nodes_is_answered_with_both_and_a_point_beyond_all_measure_is_refused() {
     let folder = TestSite::empty();
     let building = "coordinate_system: cartesian_meters\nname: t\nlevels:\n  L1:\n    vertices: [[0, 0, 0, a], [4, 0, 0, b], [4, 4, 0, a]]\n    lanes: [[0, 1, {}], [1, 2, {}]]\n";
