@@ -69,7 +69,7 @@ impl Salt {
             index == 0 || is_of_chance(observed[index], expected)
         };
         small.retain(|blob| is_chance(blob.len() - 1));
-        let touching = |cell: &usize| ring(walls, &large, *cell).is_some_and(touches_a_wall);
+        let touching = |cell: &usize| touches_a_wall(walls, &large, *cell);
         let (bumps, free): (Vec<usize>, Vec<usize>) =
             (0..large.len()).filter(touching).partition(|&cell| large[cell]);
         if is_of_chance(bumps.len(), free.len() as f64 * share) {
@@ -86,20 +86,34 @@ fn is_of_chance(observed: usize, expected: f64) -> bool {
 
 /// Which cells about one are walls, counterclockwise from the right; `None` at the border.
 fn ring(walls: &Occupancy, of: &[bool], cell: usize) -> Option<[bool; 8]> {
+    about(walls, cell).map(|ring| ring.map(|cell| of[cell]))
+}
+
+/// The cells about one, counterclockwise from the right; `None` at the border.
+fn about(walls: &Occupancy, cell: usize) -> Option<[usize; 8]> {
     let (columns, column, row) = (walls.columns, cell % walls.columns, cell / walls.columns);
     if column == 0 || row == 0 || column + 1 == columns || row + 1 == walls.rows {
         return None;
     }
     let (up, down) = (cell + columns, cell - columns);
-    Some([cell + 1, up + 1, up, up - 1, cell - 1, down - 1, down, down + 1].map(|cell| of[cell]))
+    Some([cell + 1, up + 1, up, up - 1, cell - 1, down - 1, down, down + 1])
 }
 
-/// Whether a pixel sticks out of a straight wall alone, or touches one with a corner only. The end of a thin wall does not.
-fn touches_a_wall(ring: [bool; 8]) -> bool {
-    let count = ring.iter().filter(|&&is_wall| is_wall).count();
+/// Whether a pixel sticks out of a straight wall alone, or touches the corner of a thick one with its own. The end of a thin wall
+/// does not, however that is slanted.
+fn touches_a_wall(walls: &Occupancy, large: &[bool], cell: usize) -> bool {
+    let Some(cells) = about(walls, cell) else { return false };
+    let ring = cells.map(|cell| large[cell]);
     let lies_on = |side: usize| ring[(side + 7) % 8] && ring[side] && ring[(side + 1) % 8];
-    count == 3 && [0, 2, 4, 6].into_iter().any(lies_on)
-        || count == 1 && [1, 3, 5, 7].into_iter().any(|at| ring[at])
+    let is_thick = |at: usize| {
+        let beside = about(walls, cells[at]);
+        beside.is_some_and(|beside| beside.iter().filter(|&&of| of != cell && large[of]).count() >= 3)
+    };
+    match ring.iter().filter(|&&is_wall| is_wall).count() {
+        3 => [0, 2, 4, 6].into_iter().any(lies_on),
+        1 => [1, 3, 5, 7].into_iter().any(|at| ring[at] && is_thick(at)),
+        _ => false,
+    }
 }
 
 /// Variance over mean of the lone pixels' number in tiles, as far as these have floor.

@@ -192,3 +192,38 @@ fn a_few_specks_legs_in_groups_and_a_pillar_among_salt_stay() {
     let left = left.iter().filter(|&&is_wall| is_wall).count();
     assert!(left <= 20, "{left} pixels of 804 are left");
 }
+
+#[test]
+fn thin_walls_of_any_slant_keep_their_ends_among_salt() {
+    let (columns, rows) = (400, 400);
+    let mut wrong = Vec::new();
+    for seed in 0..8 {
+        let mut chance = Random::new(seed);
+        let mut walls = vec![false; columns * rows];
+        // sixteen walls of a pixel's breadth, sixty pixels long or so, each in a square of its own
+        for square in 0..16_i32 {
+            let (left, low) = (100 * (square % 4) + 50, 100 * (square / 4) + 50);
+            let angle = chance.share() * std::f64::consts::TAU;
+            for step in -30_i32..=30 {
+                let along = |share: f64| (share * f64::from(step)).round() as i32;
+                let (x, y) = (left + along(angle.cos()), low + along(angle.sin()));
+                walls[y as usize * columns + x as usize] = true;
+            }
+        }
+        let mut salted = walls.clone();
+        (0..800).for_each(|_| salted[(3 + chance.below(394)) * columns + 3 + chance.below(394)] = true);
+        let occupancy =
+            Occupancy { origin: Point::default(), resolution: 0.05, columns, rows, blocked: salted };
+        let (world, report) = strewn(&occupancy, 0.0, &MapSettings::default());
+        assert!(
+            report
+                .notes
+                .iter()
+                .any(|note| note.code == Code::Salt && note.to_string().contains("taken for salt"))
+        );
+        let left = world.occupancy.unwrap().blocked;
+        let lost = (0..walls.len()).filter(|&cell| walls[cell] && !left[cell]).count();
+        wrong.extend((lost > 0).then(|| format!("seed {seed}: {lost} pixels of walls")));
+    }
+    assert!(wrong.is_empty(), "{wrong:#?}");
+}
