@@ -17,8 +17,6 @@ pub struct Cell {
     /// Under which its experience is kept.
     pub name: String,
     pub robot: RobotKind,
-    /// The robot in words and numbers; experience of a robot of which another text is said is none of this one.
-    pub robot_text: String,
     pub objects: Vec<Object>,
     /// Where the robot is before its first task.
     pub home: Configuration,
@@ -71,6 +69,10 @@ impl Goal {
     }
 }
 
+/// What stands before its limits in a robot's text.
+const JOINTS: &str = " and joints ";
+const BOUNDS: &str = " in ";
+
 impl RobotKind {
     /// As planners see it.
     pub fn robot(&self) -> Arc<dyn Robot> {
@@ -78,6 +80,31 @@ impl RobotKind {
             Self::Arm(arm) => Arc::clone(arm) as Arc<dyn Robot>,
             Self::Point(point) => Arc::clone(point) as Arc<dyn Robot>,
         }
+    }
+
+    /// In words and numbers; experience of a robot of which another text is said, but for its limits, is none of this one.
+    pub fn text(&self) -> String {
+        let limits: Vec<[f64; 2]> =
+            self.robot().limits().iter().map(|limit| [limit.low, limit.high]).collect();
+        match self {
+            Self::Arm(arm) => {
+                let (base, lengths, radius) = (arm.base(), arm.lengths(), arm.radius());
+                format!(
+                    "arm at {:?} with links {lengths:?} of radius {radius}{JOINTS}{limits:?}",
+                    [base.x, base.y]
+                )
+            }
+            Self::Point(disc) => {
+                let [x, y] = [0, 1].map(|axis| limits[axis]);
+                format!("disc of radius {}{BOUNDS}{:?}", disc.radius(), [x[0], y[0], x[1], y[1]])
+            }
+        }
+    }
+
+    /// A robot's text without how far it goes.
+    pub fn without_limits(text: &str) -> &str {
+        let body = text.rsplit_once(JOINTS).or_else(|| text.rsplit_once(BOUNDS));
+        body.map_or(text, |(body, _)| body)
     }
 
     /// What people call a number of a configuration, from 1.

@@ -30,15 +30,6 @@ pub(super) struct ArmDraft {
     pub limits: Located<Vec<[f64; 2]>>,
 }
 
-impl ArmDraft {
-    fn text(&self) -> String {
-        format!(
-            "arm at {:?} with links {:?} of radius {} and joints {:?}",
-            self.base.value, self.lengths.value, self.radius.value, self.limits.value
-        )
-    }
-}
-
 impl Draft<'_> {
     pub fn refuse(&mut self, code: Code, span: &Range<usize>, message: impl Into<String>) {
         self.problems.push(self.text.problem(code, span, message));
@@ -54,7 +45,7 @@ impl Draft<'_> {
     }
 
     /// An arm, if it can be one.
-    pub fn arm(&mut self, draft: &ArmDraft) -> Option<(RobotKind, String)> {
+    pub fn arm(&mut self, draft: &ArmDraft) -> Option<RobotKind> {
         let limits: Vec<f64> = draft.limits.value.iter().flatten().copied().collect();
         let reach: f64 = draft.lengths.value.iter().sum();
         let are_sane = [
@@ -69,7 +60,7 @@ impl Draft<'_> {
         let limits = draft.limits.value.iter().map(|&[low, high]| Limit { low, high }).collect();
         let [x, y] = draft.base.value;
         match Arm::new(Point::new(x, y), draft.lengths.value.clone(), draft.radius.value, limits) {
-            Ok(arm) => Some((RobotKind::Arm(Arc::new(arm)), draft.text())),
+            Ok(arm) => Some(RobotKind::Arm(Arc::new(arm))),
             Err(error) => {
                 let (code, span) = match error {
                     ArmError::Radius(_) => (Code::NotPositive, &draft.radius.span),
@@ -83,7 +74,7 @@ impl Draft<'_> {
         }
     }
 
-    pub fn disc(&mut self, bounds: &Located<[f64; 4]>, radius: &Located<f64>) -> Option<(RobotKind, String)> {
+    pub fn disc(&mut self, bounds: &Located<[f64; 4]>, radius: &Located<f64>) -> Option<RobotKind> {
         if !self.within("`bounds`", &bounds.span, &bounds.value, LARGEST_M)
             || !self.within("`radius`", &radius.span, &[radius.value], LARGEST_M)
         {
@@ -107,8 +98,7 @@ impl Draft<'_> {
             return None;
         }
         let limits = [Limit { low: x0, high: x1 }, Limit { low: y0, high: y1 }];
-        let text = format!("disc of radius {} in {:?}", radius.value, bounds.value);
-        Some((RobotKind::Point(Arc::new(PointRobot::new(limits, radius.value))), text))
+        Some(RobotKind::Point(Arc::new(PointRobot::new(limits, radius.value))))
     }
 
     /// An outline, if it is a simple polygon.

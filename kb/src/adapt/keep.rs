@@ -123,7 +123,7 @@ fn state(cell: &Cell, seed: u64, copied_from: Option<&str>, adapt: &Adapt) -> ro
     let (next_subgoal, next_edge) = adapt.experience().next_numbers();
     rows::Cell {
         cell: cell.name.clone(),
-        robot: cell.robot_text.clone(),
+        robot: cell.robot.text(),
         seed: seed.to_string(),
         tasks: i64::from(progress.tasks),
         revision: i64::from(adapt.cell().revision()),
@@ -224,6 +224,7 @@ const fn removal(why: Removal) -> &'static str {
         Removal::LandmarkGone => "its object is gone",
         Removal::OutOfReach => "out of reach",
         Removal::VertexRemoved => "its subgoal is gone",
+        Removal::BeyondLimits => "beyond the robot's limits",
         _ => "removed",
     }
 }

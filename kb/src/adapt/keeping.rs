@@ -60,7 +60,8 @@ impl Keeping {
         }
         self.since = None;
         step.tasks = std::mem::take(&mut self.tasks);
-        if is_new || !step.tasks.is_empty() || !step.object_changes.is_empty() {
+        let is_less = !step.subgoals_removed.is_empty() || !step.edges_removed.is_empty();
+        if is_new || is_less || !step.tasks.is_empty() || !step.object_changes.is_empty() {
             self.store.transaction(|tx| tx.keep_step(&step)).map_err(|error| cell.not_kept(error))?;
         }
         Ok(())

@@ -10,7 +10,7 @@ use adit_planners::adapt::{
 use adit_planners::geometry::{Point, Segment};
 use adit_planners::pose::Pose;
 
-use super::cell::Cell;
+use super::cell::{Cell, RobotKind};
 use super::figures::Figures;
 use crate::error::{Code, Error, Result};
 
@@ -72,22 +72,28 @@ pub(super) fn planner(
         refused,
         tightened,
     };
-    if !cell.robot.robot().admits(&progress.here) {
+    let limits = cell.robot.robot().limits().len();
+    if progress.here.len() != limits || experience.vertices().any(|vertex| vertex.at.len() != limits) {
         return Err(damaged(kept, "its `configuration` is none of the robot"));
     }
     Ok(Adapt::resume(workcell, experience, plugins, settings, progress))
 }
 
-/// Refuses the experience of another robot than that of the cell.
+/// Refuses the experience of another robot than that of the cell. One that goes farther, or less far, is the same.
 pub(super) fn of_robot(cell: &Cell, kept: &rows::Experience) -> Result<()> {
-    if kept.cell.robot == cell.robot_text {
+    let robot = cell.robot.text();
+    if RobotKind::without_limits(&kept.cell.robot) == RobotKind::without_limits(&robot) {
         return Ok(());
     }
     let message = format!(
-        "the experience of {} is of another robot: {}, and here it is: {}",
-        kept.cell.cell, kept.cell.robot, cell.robot_text
+        "the experience of {} is of another robot: {}, and here it is: {robot}",
+        kept.cell.cell, kept.cell.robot
     );
-    let help = "keep this one in another database, or under another name of the file".to_owned();
+    let help = format!(
+        "keep this one in another database, under another name of the file, or forget what the other one learned: \
+         `DELETE FROM cells WHERE cell = '{}'`",
+        kept.cell.cell.replace('\'', "''")
+    );
     Err(Error::said(Code::PlanOtherRobot, message, Some(help)))
 }
 

@@ -161,7 +161,7 @@ impl Written {
             base,
             limits: located(self.joint_limits),
         };
-        let (robot, robot_text) = draft.arm(&arm).unzip();
+        let robot = draft.arm(&arm);
         let mut objects = |corners: Vec<Corners>, first: usize| -> Vec<Object> {
             let object = |(index, corners): (usize, Corners)| {
                 let name = format!("obstacle {}", first + index);
@@ -198,7 +198,6 @@ impl Written {
         Some(Cell {
             name,
             robot: robot?,
-            robot_text: robot_text?,
             objects: there,
             home: home?,
             goals: goals_there,

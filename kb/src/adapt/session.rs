@@ -17,6 +17,7 @@ use super::keeping::Keeping;
 use super::{keep, recall};
 use crate::error::{Code, Error, Result};
 use crate::site::whole::Whole;
+use crate::words::number::counted;
 
 #[derive(Clone, Debug, Default)]
 pub struct Beginning<'b> {
@@ -38,6 +39,8 @@ pub struct Session {
     adapt: Adapt,
     judge: RuleJudge,
     keeping: Option<Keeping>,
+    /// What of the experience went with the robot's limits, in a sentence.
+    narrowed: Option<String>,
 }
 
 /// A task that was done, or tried.
@@ -89,9 +92,11 @@ impl Session {
         if !beginning.taught.is_empty() {
             plugins.solve = Arc::new(Taught::new(beginning.taught, RrtConnect::default()));
         }
+        let mut narrowed = None;
         let settings = Settings { seed: beginning.seed, ..described.settings.clone() };
         let (adapt, seed, copied_from) = if let Some(kept) = &kept {
-            let adapt = recall::planner(described, kept, margin, plugins, settings)?;
+            let mut adapt = recall::planner(described, kept, margin, plugins, settings)?;
+            narrowed = narrow(&mut adapt, described, &kept.cell.robot);
             (adapt, kept.cell.seed.parse().unwrap_or(beginning.seed), kept.cell.copied_from.clone())
         } else {
             let now = described.after(0);
@@ -102,7 +107,7 @@ impl Session {
         let cell = described.after(adapt.progress().tasks as usize);
         let described = described.clone();
         let keeping = store.map(|store| Keeping::new(store, seed, copied_from));
-        let mut session = Self { cell, described, adapt, judge, keeping };
+        let mut session = Self { cell, described, adapt, judge, keeping, narrowed };
         for goal in beginning.goals {
             session.cell.goal(goal)?;
         }
@@ -114,6 +119,11 @@ impl Session {
 
     pub const fn cell(&self) -> &Cell {
         &self.cell
+    }
+
+    /// What of the experience went since the robot's limits are others than when it learned, in a sentence.
+    pub fn narrowed(&self) -> Option<&str> {
+        self.narrowed.as_deref()
     }
 
     pub const fn adapt(&self) -> &Adapt {
@@ -199,6 +209,28 @@ impl Session {
             None => Ok(()),
         }
     }
+}
+
+/// Takes out of the experience what the robot's limits no longer admit, where they are others than when it learned.
+fn narrow(adapt: &mut Adapt, cell: &Cell, learned_by: &str) -> Option<String> {
+    if cell.robot.text() == learned_by {
+        return None;
+    }
+    let (subgoals, edges) = adapt.keep_within_limits();
+    let is_beyond = !cell.robot.robot().admits(&adapt.progress().here);
+    if subgoals + edges == 0 && !is_beyond {
+        return None;
+    }
+    let mut said = format!(
+        "the robot's limits are others than when it learned: {} and {} lie beyond them and are forgotten",
+        counted(subgoals, "subgoal"),
+        counted(edges, "edge")
+    );
+    if is_beyond {
+        adapt.put(cell.home.clone());
+        said.push_str("; so does where it was, and it is taken to be at home");
+    }
+    Some(said)
 }
 
 /// A database to which tasks are written: others may read meanwhile, and no task waits for the disk.

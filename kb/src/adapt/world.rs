@@ -18,7 +18,6 @@ pub fn read(name: &str, fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) ->
     fields.refuse_unknown(if is_disc { &DISC } else { &ARM }, problems);
     let mut draft = Draft { text: fields.text, problems: Vec::new() };
     let robot = if is_disc { disc(fields, &mut draft, problems) } else { arm(fields, &mut draft, problems) };
-    let (robot, robot_text) = robot.unzip();
     let objects = objects(fields, &mut draft, problems);
     let home = list(fields, "home", problems);
     let home = home.and_then(|home| draft.configuration("`home`", robot.as_ref(), &home));
@@ -40,7 +39,6 @@ pub fn read(name: &str, fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) ->
     let cell = Cell {
         name: name.to_owned(),
         robot: robot?,
-        robot_text: robot_text?,
         objects,
         home: home?,
         goals,
@@ -51,11 +49,7 @@ pub fn read(name: &str, fields: &Fields<'_, '_>, problems: &mut Vec<Problem>) ->
     is_well.then_some(cell)
 }
 
-fn arm(
-    fields: &Fields<'_, '_>,
-    draft: &mut Draft<'_>,
-    problems: &mut Vec<Problem>,
-) -> Option<(RobotKind, String)> {
+fn arm(fields: &Fields<'_, '_>, draft: &mut Draft<'_>, problems: &mut Vec<Problem>) -> Option<RobotKind> {
     let lengths = list(fields, "links", problems);
     let radius = or(fields, "link_radius", 0.0, problems);
     let base = match fields.get("base") {
@@ -69,11 +63,7 @@ fn arm(
     draft.arm(&ArmDraft { lengths: lengths?, radius: radius?, base: base?, limits: limits? })
 }
 
-fn disc(
-    fields: &Fields<'_, '_>,
-    draft: &mut Draft<'_>,
-    problems: &mut Vec<Problem>,
-) -> Option<(RobotKind, String)> {
+fn disc(fields: &Fields<'_, '_>, draft: &mut Draft<'_>, problems: &mut Vec<Problem>) -> Option<RobotKind> {
     let bounds = fields.numbers("bounds", problems);
     let radius = or(fields, "radius", 0.0, problems);
     draft.disc(&bounds?, &radius?)

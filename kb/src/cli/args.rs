@@ -100,6 +100,9 @@ pub struct SimulateArgs {
     /// The robot knows of the building what was learned of it and stands in --db, or the site's own database
     #[arg(long, conflicts_with = "curve")]
     pub learned: bool,
+    /// The database in which what was learned stands.
+    #[arg(skip)]
+    pub learned_in: Option<PathBuf>,
     /// Instead of missions, drive by hand in the learned building: a file of orders, or `-` for standard input
     #[arg(long, value_name = "FILE", requires = "learned", conflicts_with_all = ["start", "film"])]
     pub drive: Option<PathBuf>,

@@ -61,6 +61,8 @@ pub fn run(
         }
         keep_learned(db, &record, floor, asked)?;
         made.keep();
+    } else {
+        remark("nothing of what was learned is kept without --keep or --db");
     }
     either(args.json, &row, show)?;
     Ok(row.is_right())
@@ -118,7 +120,7 @@ pub fn drive(
     };
     let text = text.map_err(|error| Error::io("read", script, &error))?;
     let name = script.display().to_string();
-    let script = parse(&name, &text, learned)?;
+    let script = parse(&name, &text, [learned, truth])?;
     let walls: Vec<Segment> = truth.plan.barriers().into_iter().map(Segment::from).collect();
     let outfit = Outfit { start_sigma_m: START_SIGMA_M, ..truth.driving.outfit(truth.network.disc.radius) };
     let mut judge = RuleJudge::of_mission(asked, &learned.told)?;
@@ -131,7 +133,7 @@ pub fn drive(
         stored.places.retain(|(name, _)| *name != place.name);
         stored.places.push((place.name.clone(), [place.at.x, place.at.y]));
     }
-    if let Some(db) = args.db.as_ref().filter(|_| !driven.places.is_empty()) {
+    if let Some(db) = args.learned_in.as_ref().filter(|_| !driven.places.is_empty()) {
         keep_learned(db, &stored, truth, asked)?;
     }
     let in_vain = driven.in_vain.map(|(index, how)| (script.lines[index], ending(how)));

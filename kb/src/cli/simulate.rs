@@ -90,14 +90,15 @@ pub fn run(args: &SimulateArgs) -> Result<bool> {
     Ok(are_right(&rows))
 }
 
-/// The arguments with the site's own database, where what comes of it is kept there.
+/// The arguments with the site's own database, where what comes of it is kept there, or what was learned stands there.
 fn in_own(args: &SimulateArgs, site: &KnowledgeBase) -> Result<SimulateArgs> {
-    let is_own = args.keep || args.learned && args.db.is_none();
-    if is_own {
+    if args.keep {
         site.needs_folder()?;
     }
-    let db = if is_own { Some(site.database().to_owned()) } else { args.db.clone() };
-    Ok(SimulateArgs { db, ..args.clone() })
+    let own = site.database().to_owned();
+    let db = if args.keep { Some(own.clone()) } else { args.db.clone() };
+    let learned_in = db.clone().or_else(|| (args.learned && !site.is_map_alone()).then_some(own));
+    Ok(SimulateArgs { db, learned_in, ..args.clone() })
 }
 
 /// Runs missions one after the other, and tells the site what the robot meets.
@@ -213,7 +214,7 @@ fn kept(
 
 /// What was learned of the world, from the database.
 fn learned(args: &SimulateArgs, world: &str, floor: &Floor) -> Result<(adit_db::learned::Learned, Floor)> {
-    let Some(db) = &args.db else {
+    let Some(db) = &args.learned_in else {
         return Err(Error::said(
             Code::SimulateLearned,
             "--learned goes with --db: the building stands there",
@@ -223,7 +224,8 @@ fn learned(args: &SimulateArgs, world: &str, floor: &Floor) -> Result<(adit_db::
     let stored = Store::open(db)?.transaction(|tx| tx.learned(world))?;
     let Some(stored) = stored else {
         let message = format!("{} has no building that was learned of the world `{world}`", db.display());
-        let help = "learn it first: `adit simulate WORLD --learn START --db FILE`".to_owned();
+        let help = "learn it first: `adit simulate WORLD --learn START --keep`, or with --db FILE instead"
+            .to_owned();
         return Err(Error::said(Code::SimulateNotLearned, message, Some(help)));
     };
     let known = learning::known(&stored, floor)?;

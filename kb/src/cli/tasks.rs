@@ -137,6 +137,9 @@ pub fn run(args: &TasksArgs) -> Result<bool> {
         goals: goals.clone(),
     };
     let (mut session, changed) = Session::begin((&cell, margin), judge, beginning)?;
+    if let Some(narrowed) = session.narrowed() {
+        remark(narrowed);
+    }
     let mut tasks = Vec::new();
     for text in goals {
         let goal = session.cell().goal(text)?;

@@ -256,6 +256,8 @@ codes! {
     RouteReason = "route/reason", BAD_REQUEST;
     /// A point is inside an obstacle.
     RouteSolid = "route/solid", BAD_REQUEST;
+    /// Where a robot is said to be that follows a route, no state of it fits.
+    RouteUnfit = "route/unfit", BAD_REQUEST;
     /// The site has no robot yet; build it.
     RouteUnbuilt = "route/unbuilt", BAD_REQUEST;
     /// The name is no place, no space, no room and no point.

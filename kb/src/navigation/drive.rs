@@ -34,12 +34,12 @@ pub struct Script {
     pub lines: Vec<usize>,
 }
 
-/// Reads orders; places are those of the floor, and those that were named before.
+/// Reads orders; places are those of what was learned, of the plan beneath it, and those that were named before.
 ///
 /// # Returns
 /// All lines that are wrong, each with what was expected.
-pub fn parse(name: &str, text: &str, floor: &Floor) -> Result<Script> {
-    let mut reader = Reader { text: Text::new(name, text), floor, named: Vec::new(), problems: Vec::new() };
+pub fn parse(name: &str, text: &str, floors: [&Floor; 2]) -> Result<Script> {
+    let mut reader = Reader { text: Text::new(name, text), floors, named: Vec::new(), problems: Vec::new() };
     let (mut start, mut orders, mut lines) = (None, Vec::new(), Vec::new());
     let mut from = 0;
     for (number, line) in (1..).zip(text.split('\n')) {
@@ -81,23 +81,29 @@ pub fn parse(name: &str, text: &str, floor: &Floor) -> Result<Script> {
 
 struct Reader<'f> {
     text: Text,
-    floor: &'f Floor,
+    /// What was learned, and the plan.
+    floors: [&'f Floor; 2],
     /// Places that were named by orders before; where, only the drive will tell.
     named: Vec<String>,
     problems: Vec<Problem>,
 }
 
 impl Reader<'_> {
+    /// A place, as the robot knows it rather than as the plan has it, or `x,y`.
+    fn point(&self, text: &str) -> Option<Point> {
+        self.floors.iter().find_map(|floor| floor.point(text).ok())
+    }
+
     fn wrong(&mut self, span: &Range<usize>, message: String) {
         self.problems.push(self.text.problem(Code::Syntax, span, message));
     }
 
     fn start(&mut self, rest: &str, span: &Range<usize>) -> Option<Pose> {
-        let point = self.floor.point(rest).ok().map(|at| (at, 0.0));
+        let point = self.point(rest).map(|at| (at, 0.0));
         let with_heading = || {
             let (place, degrees) = rest.rsplit_once(char::is_whitespace)?;
             let degrees: f64 = degrees.parse().ok().filter(|degrees: &f64| degrees.abs() <= LARGEST_TURN)?;
-            Some((self.floor.point(place.trim()).ok()?, degrees))
+            Some((self.point(place.trim())?, degrees))
         };
         let found = point.or_else(with_heading);
         if found.is_none() {
@@ -145,14 +151,17 @@ impl Reader<'_> {
 
     /// What a place may be, as it goes on from `expected`.
     fn place(&self) -> String {
-        match self.floor.names().as_slice() {
+        let mut names: Vec<&str> = self.floors.iter().flat_map(|floor| floor.names()).collect();
+        names.sort_unstable();
+        names.dedup();
+        match names.as_slice() {
             [] => "a point (the plan has no place)".to_owned(),
             names => format!("a place ({})", names.join(", ")),
         }
     }
 
     fn goal(&mut self, rest: &str, span: &Range<usize>) -> Option<Point> {
-        let found = self.floor.point(rest).ok();
+        let found = self.point(rest);
         if found.is_none() {
             let message = if self.named.iter().any(|name| name == rest) {
                 format!("`{rest}` is named in this drive; where it is is known to the next one")

@@ -17,7 +17,7 @@ use super::question::Question;
 use super::share::Asker;
 use super::shared::{Shared, Subscription};
 use super::token;
-use crate::answer::Answer;
+use crate::answer::{Answer, Status};
 use crate::edit::Errand;
 use crate::error::Code;
 use crate::live::View;
@@ -76,7 +76,13 @@ impl Followers {
             within: known.question.within,
             errand: Errand::default(),
         };
-        let held = Held::of(question.answer(view)?, view);
+        let answer = question.answer(view)?;
+        if answer.status == Status::NoRoute && answer.nearest.as_ref().is_some_and(|of| of.end == "start") {
+            let reason = answer.reason.unwrap_or_default();
+            let help = "the follower is where it was; say where the robot fits, or follow with `within`";
+            return Err(Fault::new(Code::RouteUnfit, reason).helped(help));
+        }
+        let held = Held::of(answer, view);
         let answer = Arc::clone(&held.answer);
         known.held.send_replace(Arc::new(held));
         Ok(answer)

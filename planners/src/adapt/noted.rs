@@ -104,4 +104,6 @@ pub enum Removal {
     /// Its object was moved to where the robot cannot follow.
     OutOfReach,
     VertexRemoved,
+    /// The robot's limits no longer admit it.
+    BeyondLimits,
 }

@@ -19,8 +19,8 @@ pub use change::Changed;
 pub use report::{Outcome, Report, Tally};
 pub use settings::{Heuristic, Settings};
 
-use super::experience::{EdgeId, Experience, VertexId};
-use super::noted::Noted;
+use super::experience::{Edge, EdgeId, Experience, Vertex, VertexId};
+use super::noted::{Noted, Removal};
 use super::probe::Probe;
 use super::reach::{Reach, Straight};
 use super::robot::Configuration;
@@ -109,6 +109,28 @@ impl Adapt {
         let mut noted: Vec<Noted> = std::mem::take(&mut self.noted);
         noted.extend(learned.map(|(object, clearance)| Noted::Learned { object, clearance }));
         noted
+    }
+
+    /// Takes out what the limits of the robot no longer admit: subgoals, and connections that lead out of them.
+    ///
+    /// # Returns
+    /// How many subgoals and connections went.
+    pub fn keep_within_limits(&mut self) -> (usize, usize) {
+        let before = (self.experience.vertices().count(), self.experience.edges().count());
+        let robot = Arc::clone(self.cell.robot());
+        let admits = |at: &Configuration| robot.admits(at);
+        let out = |edge: &&Edge| !edge.via.iter().all(admits);
+        let edges: Vec<_> = self.experience.edges().filter(out).map(|edge| edge.ends).collect();
+        for (a, b) in edges {
+            self.remove_edge(a, b, Removal::BeyondLimits, None);
+        }
+        let out = |vertex: &&Vertex| !admits(&vertex.at);
+        let vertices: Vec<_> = self.experience.vertices().filter(out).map(|vertex| vertex.id).collect();
+        for id in vertices {
+            self.remove_vertex(id, Removal::BeyondLimits);
+        }
+        let (vertices, edges) = (self.experience.vertices().count(), self.experience.edges().count());
+        (before.0 - vertices, before.1 - edges)
     }
 
     /// Says that the robot was brought somewhere else, not by a task.

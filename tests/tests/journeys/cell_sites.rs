@@ -133,6 +133,55 @@ fn a_disc_is_a_robot_too_and_a_cell_is_served() {
     assert_eq!((status, &route["status"]), (200, &json!("ok")), "{route}");
 }
 
+/// An arm that gets past a post with its elbow far bent.
+const BENT: &str = r#"[cell]
+links = [1.0, 0.7]
+link_radius = 0.04
+joint_limits = [[-3.0, 3.0], [-2.5, 2.5]]
+home = [1.57, 0]
+[[cell.object]]
+name = "table"
+polygon = [[-0.2, -0.2], [0.2, -0.2], [0.2, 0.2], [-0.2, 0.2]]
+at = [1.35, 0.2]
+[[cell.object]]
+name = "post"
+polygon = [[-0.05, -0.05], [0.05, -0.05], [0.05, 0.05], [-0.05, 0.05]]
+at = [0.3, 1.3]
+[[cell.goal]]
+name = "pick"
+object = "table"
+tool = [0, 0.3]
+[[cell.goal]]
+name = "place"
+configuration = [-1.0, 0.5]
+"#;
+
+#[test]
+fn what_lies_beyond_limits_that_are_tuned_is_forgotten_and_another_robot_is_refused() {
+    let site = TestSite::empty();
+    site.write("bent.toml", BENT);
+    site.write("site.toml", "map = \"bent.toml\"\n");
+    site.adit("build", &[]).expect_status(0);
+    let tasks = |args: &[&str]| site.adit("tasks", args);
+    let elbow = || -> f64 {
+        let last = "SELECT max(json_extract(value, '$[1]')) FROM tasks, json_each(tasks.path)
+                    WHERE task = (SELECT max(task) FROM tasks)";
+        site.sqlite3(last)[0].parse().unwrap()
+    };
+    tasks(&["pick", "place", "pick"]).expect_status(0);
+    assert!(elbow() > 1.5, "it learned a way with its elbow bent: {}", elbow());
+    site.adit("tune", &["joints", "2", "high", "1.0"]).expect_status(0);
+    let ran = tasks(&["place", "pick"]).expecting(0);
+    ran.complains(&["the robot's limits are others than when it learned"]);
+    assert!(elbow() <= 1.0, "{}", elbow());
+    let beyond = "SELECT count(*) FROM subgoals WHERE removed_task IS NULL AND json_extract(configuration, '$[1]') > 1.0";
+    assert_eq!(site.sqlite3(beyond), ["0"]);
+    // said once: what is kept is of these limits now
+    assert_eq!(tasks(&["place"]).expecting(0).stderr, "");
+    site.adit("tune", &["joints", "2", "length", "0.75"]).expect_status(0);
+    tasks(&["pick"]).expecting(2).complains(&["is of another robot", "forget what the other one learned"]);
+}
+
 #[test]
 fn a_cell_of_a_site_is_learned_in_as_it_is_tuned_and_experience_follows() {
     let site = site_of("cell.toml").built();

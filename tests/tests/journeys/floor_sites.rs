@@ -274,3 +274,21 @@ fn what_a_rule_speaks_of_is_not_taken_away_and_undo_works_where_it_was() {
     site.adit("undo", &[]).expect_status(0);
     assert_eq!(site.sqlite3("SELECT mark FROM marks"), marks);
 }
+
+#[test]
+fn a_mission_of_what_was_learned_is_kept_where_that_is_asked_for_and_no_other_is_lost() {
+    let site = flat().built();
+    let missions = || site.sqlite3("SELECT mission, goal_x, goal_y FROM missions ORDER BY mission");
+    site.adit("simulate", &["bed", "desk", "--keep"]).expect_status(0);
+    site.adit("simulate", &["--learn", "bed"])
+        .expecting(0)
+        .complains(&["nothing of what was learned is kept without --keep"]);
+    site.adit("simulate", &["bed", "desk", "--learned"]).expecting(2).complains(&["--learn START --keep"]);
+    site.adit("simulate", &["--learn", "bed", "--keep"]).expect_status(0);
+    let before = missions();
+    assert_eq!(before.len(), 1);
+    site.adit("simulate", &["bed", "kitchen", "--learned"]).expect_status(0);
+    assert_eq!(missions(), before);
+    site.adit("simulate", &["bed", "kitchen", "--learned", "--keep"]).expect_status(0);
+    assert_eq!(missions().len(), 2);
+}

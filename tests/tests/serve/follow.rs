@@ -132,6 +132,10 @@ fn a_follower_that_moves_is_led_from_where_it_is() {
     // a point at which it cannot be is refused, and it is where it was
     let (status, refused) = service.ask("POST", &path, Some(&json!({"x": -50.0, "y": 3.0})));
     assert_eq!((status, &refused["error"]["code"]), (400, &json!("route/outside")));
+    // nor one in the map at which none of its states fits
+    let near_wall = json!({"x": 0.1, "y": 0.1});
+    let (status, refused) = service.ask("POST", &path, Some(&near_wall));
+    assert_eq!((status, &refused["error"]["code"]), (400, &json!("route/unfit")), "{refused:#}");
     let door = doorways(&answer).pop().unwrap();
     close(&service, &door);
     let other = follower.next("route");

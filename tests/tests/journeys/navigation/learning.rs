@@ -92,7 +92,7 @@ fn orders_that_are_wrong_are_shown_with_what_was_expected() {
         &[
             "found `far`, expected metres",
             "found `fly`, expected one of start",
-            "found `nowhere`, expected a point",
+            "found `nowhere`, expected a place (bath, ",
             "found no name",
             "orders.txt:2",
         ],
