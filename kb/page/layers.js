@@ -27,8 +27,8 @@ export class Drawn {
     const counts = roomsWeigh() ? weights.rooms : weights.doors;
     this.classes = new Classes(counts.hardness.filter((value, i) => value !== null && counts.passable[i] !== false));
     const changed = (of, numbered) => new Map((of?.list ?? []).map((thing) => [numbered(thing), thing]).filter(([index]) => index !== undefined));
-    this.changedRooms = changed(model.preview?.rooms, ({ room }) => model.roomIndex.get(room));
-    this.changedDoors = changed(model.preview?.doors, ({ door }) => model.doorIndex.get(door));
+    this.changedRooms = changed(model.tried?.rooms, ({ room }) => model.roomIndex.get(room));
+    this.changedDoors = changed(model.tried?.doors, ({ door }) => model.doorIndex.get(door));
     const shows = map.layers.map((_, index) => (layer === EASIEST ? ofRobot(index) : index === layer));
     this.rooms = map.rooms.flatMap((room, index) => (room.layer === null || shows[room.layer] ? [index] : []));
     this.shownRooms = new Set(this.rooms);

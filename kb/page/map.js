@@ -128,7 +128,7 @@ function legend() {
   const used = new Set([...model.weights.rooms.action, ...(roomsWeigh() ? [] : model.weights.doors.action)]);
   const ways = actions.names.filter((name) => used.has(name)).map((name) => el('li', {}, stroke(name), el('b', { text: actions.letter(name) }), ` ${action(name)}`));
   const barred = el('li', {}, el('span', { class: 'swatch barred', 'aria-hidden': 'true' }), 'shut or not entered ✕');
-  const amber = model.preview ? [el('li', {}, el('span', { class: 'swatch changed', 'aria-hidden': 'true' }), 'would change')] : [];
+  const amber = model.tried ? [el('li', {}, el('span', { class: 'swatch changed', 'aria-hidden': 'true' }), 'would change')] : [];
   fill(byId('legend'), el('li', { class: 'legend-title', text: title }), ...items, barred, ...amber, el('li', { class: 'legend-title', text: 'Action:' }), ...ways);
 }
 
@@ -264,7 +264,7 @@ export function startMap(lead) {
   model.on('map', newMap);
   model.on('weights', redraw);
   // The words of a preview come first: on a large floor it takes a moment to find what is drawn otherwise.
-  model.on('preview', () => requestAnimationFrame(redraw));
+  model.on('preview ahead', () => requestAnimationFrame(redraw));
   let robot = model.ask.robot;
   model.on('ask', () => {
     if (robot === model.ask.robot || !model.map) return;

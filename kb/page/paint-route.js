@@ -4,7 +4,7 @@ import { model } from './model.js';
 
 /** All ways that are known now. */
 export function paintRoutes(context, camera, shown, ink, labels) {
-  const previewed = model.preview?.route;
+  const previewed = model.tried?.route;
   const letters = [];
   if (previewed?.waypoints && differs(previewed, model.route)) band(context, camera, previewed.waypoints, ink['amber-line']);
   if (model.route?.waypoints?.length) way(context, camera, shown, ink, model.route.waypoints, letters);

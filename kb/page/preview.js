@@ -12,7 +12,7 @@ import { said } from './notice.js';
 import { cells, discard, edits, keyName, restore } from './pending.js';
 import { refresh } from './refresh.js';
 import { andThen, focusSaved, forgetSaved, showSaved } from './saved.js';
-import { cellList, conclusionList, routeList, rulesTried, summary, thisRoute } from './summary.js';
+import { cellList, conclusionList, noteList, routeList, rulesTried, summary, thisRoute } from './summary.js';
 import { otherRows, outdated } from './table-file.js';
 import { isOn } from './tunings.js';
 
@@ -116,7 +116,7 @@ function leave(id) {
 function told() {
   const { preview } = model;
   if (failed) return [said(failed)];
-  if (preview) return [el('p', { id: 'preview-summary', text: summary(preview).join(' ') }), thisRoute(preview), rulesTried(preview.rules), cellList(preview.cells), conclusionList(preview.conclusions), routeList(preview.routes), firmWithin(cells().map(([, cell]) => cell))];
+  if (preview) return [el('p', { id: 'preview-summary', text: summary(preview).join(' ') }), thisRoute(preview), noteList(preview.notes), rulesTried(preview.rules), cellList(preview.cells), conclusionList(preview.conclusions), routeList(preview.routes), firmWithin(cells().map(([, cell]) => cell))];
   return [...model.pending.values()].every((item) => item.wrong) ? [] : [el('p', { class: 'hint', text: 'Looking what would change…' })];
 }
 

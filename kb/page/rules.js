@@ -149,8 +149,17 @@ function writeOver() {
   openFile(name);
 }
 
+/** A rule that is whole, and is about nothing until somebody says what. */
+function begun(name) {
+  const rooms = model.site.rooms_mode !== 'none' && !model.site.layout_kind;
+  const own = model.tables?.tables.find((table) => !['robots', 'changes', 'loads', 'hours', 'measures'].includes(table.table));
+  const key = own?.columns[0]?.name;
+  if (rooms || !key) return `rule "${name}"\n    each room in ROOMS where false\n    then { room.hardness = 1.0; }\n`;
+  return `rule "${name}"\n    each ${own.table.replace(/s$/, '')} in ${own.table.toUpperCase()} where false\n    then { ${own.table.replace(/s$/, '')}.note = "what follows"; }\n`;
+}
+
 const BEGUN = {
-  rule: (name) => `// ${name}: what it is for.\n\nrule "${name}"\n    each room in ROOMS\n    set room.\n`,
+  rule: (name) => `// ${name}: what it is for.\n\n${begun(name)}`,
   test: (name) => `[[test]]\nname = "${name}"\n`,
 };
 

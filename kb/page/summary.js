@@ -87,6 +87,11 @@ export function cellList(cells) {
   return el('details', { id: 'preview-cells', open: changed.length <= 4 }, el('summary', { text: `${count(changed.length, 'cell')} would change` }), el('ul', { class: 'plain' }, ...items, more));
 }
 
+/** What would be worth a look: cells that name nothing, places at which no robot fits, kinds of which no rule speaks. */
+export function noteList(notes) {
+  return notes?.length ? el('ul', { class: 'plain wrong' }, ...notes.map((text) => el('li', { text }))) : null;
+}
+
 export function conclusionList(conclusions) {
   if (!conclusions?.length) return null;
   const items = conclusions.slice(0, MOST_ROUTES).map(({ what, property, old, new: now }) => el('li', {}, `${what}: ${property.replaceAll('_', ' ')} `, el('s', { text: shown(old) }), ' ', el('b', { text: shown(now) })));

@@ -1,11 +1,11 @@
 /** What an edit that has a form of its own would change, shown in the form before it may be made. */
 
 import { post } from './api.js';
-import { debounced, el, fill } from './dom.js';
+import { byId, debounced, el, fill } from './dom.js';
 import { untilWhen } from './format.js';
 import { model } from './model.js';
 import { said } from './notice.js';
-import { summary, thisRoute } from './summary.js';
+import { noteList, summary, thisRoute } from './summary.js';
 
 const WAIT = 150;
 
@@ -18,6 +18,16 @@ const WAIT = 150;
 export function lookAhead(id, wish, make) {
   const node = el('div', { id, class: 'would', role: 'status' });
   let [asked, seen] = ['', ''];
+  let mine = null;
+  // A card over the map shows there what it would change, for as long as it is open.
+  const draw = (answer) => {
+    if (mine && model.ahead === mine) model.set('ahead', null);
+    mine = answer && node.closest('.card') ? answer : null;
+    if (mine) model.set('ahead', mine);
+  };
+  new MutationObserver(() => {
+    if (mine && !node.isConnected) draw(null);
+  }).observe(byId('answers'), { childList: true });
   const show = (text, ...parts) => {
     fill(node, ...parts);
     [asked, seen] = ['', text];
@@ -33,17 +43,24 @@ export function lookAhead(id, wish, make) {
   }
   async function now() {
     const edit = wish();
-    if (!edit) return show('');
+    if (!edit) {
+      draw(null);
+      return show('');
+    }
     const text = JSON.stringify(edit);
     asked = text;
     wait(true);
     const { start, goal, robot } = model.ask;
     try {
       const answer = await post('/api/preview', { edits: [edit], ...(start && goal ? { start, goal } : {}), ...(robot ? { robot } : {}) });
-      if (asked === text) show(text, ...(answer.closings ?? []).map((closing) => el('p', { text: `Then: ${closing}${edit.until ? untilWhen(edit.until) : ''}.` })), el('p', { text: summary(answer).join(' ') }), thisRoute(answer));
+      if (asked !== text) return undefined;
+      show(text, ...(answer.closings ?? []).map((closing) => el('p', { text: `Then: ${closing}${edit.until ? untilWhen(edit.until) : ''}.` })), el('p', { text: summary(answer).join(' ') }), thisRoute(answer), noteList(answer.notes));
+      draw(answer);
     } catch (error) {
       // What cannot be looked at in time may be made all the same; what is refused may not.
-      if (asked === text) show(error.status >= 500 ? text : '', said(error));
+      if (asked !== text) return undefined;
+      draw(null);
+      show(error.status >= 500 ? text : '', said(error));
     }
     return undefined;
   }
@@ -58,5 +75,5 @@ export function lookAhead(id, wish, make) {
     wait(Boolean(wish()));
     later();
   }
-  return { node, now, look, isReady, forget: () => show('') };
+  return { node, now, look, isReady, forget: () => { draw(null); show(''); } };
 }

@@ -150,7 +150,8 @@ impl Edit {
                 let gone = tx.remove_row("told", &id.to_string(), author);
                 gone.map_err(|error| match error {
                     adit_db::Error::UnknownKey { .. } => {
-                        let help = "`adit tell SITE --list` shows what is told".to_owned();
+                        let help =
+                            "`adit tell SITE --list`, or `GET /api/facts`, shows what is told".to_owned();
                         Error::said(Code::TellUnknownFact, format!("there is no fact {id}"), Some(help))
                     }
                     error => error.into(),

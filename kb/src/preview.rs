@@ -19,7 +19,7 @@ use crate::graph::SiteGraph;
 use crate::graph::gauge::Gauge;
 use crate::graph::pairs::Known;
 use crate::live::Live;
-use crate::live::report::Concluded;
+use crate::live::report::{Concluded, notes, unfit_places};
 use crate::state::{Courses, Nothing, State, Step, Weighed, keep};
 use crate::words::progress::Silent;
 pub use drafts::{Decides, RulesTried};
@@ -53,6 +53,9 @@ pub struct Preview {
     /// What rules would say otherwise of other things than rooms and doors, on a site without a map.
     #[schema(value_type = Vec<Object>)]
     pub conclusions: Vec<Concluded>,
+    /// What would be worth a look and is not now, in sentences: of cells that name nothing, of places at which no robot fits, of
+    /// what no rule speaks of.
+    pub notes: Vec<String>,
     /// What would be closed and is not now, or no longer be, in sentences.
     pub closings: Vec<String>,
     /// Routes between places.
@@ -172,6 +175,7 @@ struct Before {
     gauge: Arc<Gauge>,
     courses: Option<Arc<Courses>>,
     route: Option<Answer>,
+    notes: Vec<String>,
 }
 
 impl Before {
@@ -183,6 +187,7 @@ impl Before {
             gauge: Arc::clone(&state.gauge),
             courses: state.courses.clone(),
             route: state.route_wanted(route)?,
+            notes: notes(state),
         })
     }
 
@@ -194,7 +199,8 @@ impl Before {
         route: Option<Wanted<'_>>,
         said: Otherwise,
     ) -> Result<Preview> {
-        let Self { began, graph: before, known, gauge, courses, route: before_route } = self;
+        let Self { began, graph: before, known, gauge, courses, route: before_route, notes: known_notes } =
+            self;
         let (layout_changed, weighed) = (step.is_cut_anew, step.weighed.clone());
         state.accept(step);
         state.go_on()?;
@@ -213,11 +219,17 @@ impl Before {
             let is_time = |share| began.elapsed() < patience / share && state.is_waited_for();
             routes::compare((before, &known), after, &robots, layout_changed, &is_time)
         };
+        let mut notes = notes(&state);
+        if layout_changed || before.places != after.places {
+            notes.extend(unfit_places(&state));
+        }
+        notes.retain(|note| !known_notes.contains(note));
         let Otherwise { cells, conclusions, rules } = said;
         Ok(Preview {
             generation: state.generation,
             cells,
             conclusions,
+            notes,
             closings: after.building.turned(&before.building),
             layout_changed,
             rooms: rooms_of(&before, &after, &weighed, layout_changed),

@@ -5,14 +5,19 @@ use std::sync::Arc;
 use adit_db::{Store, Tx};
 use adit_engine::RuleBase;
 use adit_planners::facts::Column;
+use jiff::SignedDuration;
 
 use super::{Close, Edit};
 use crate::answer::{self, Answer, Basis, Status};
-use crate::error::Result;
+use crate::error::{Code, Error, Result};
 use crate::knowledge::KnowledgeBase;
 use crate::knowledge::tables;
+use crate::site::clock::stored;
 use crate::state::{Nothing, State};
 use crate::words::progress::Silent;
+
+/// An errand may be said to be so long ago.
+const LATE: SignedDuration = SignedDuration::from_secs(60);
 
 /// What holds for one errand only.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -82,9 +87,19 @@ impl State {
         (start, goals): (&str, &[String]),
         robot: Option<&str>,
     ) -> Result<Answer> {
+        let now = self.site.clock().now();
         let state = self.on_errand(&[], errand, robot)?;
         let robot = answer::pick(&state.robots(), robot)?;
-        let blank = Answer::blank(&robot, start, goals, state.generation);
+        let mut blank = Answer::blank(&robot, start, goals, state.generation);
+        if let Some(at) = &errand.at {
+            let then = state.site.clock().now();
+            // who asks about this very moment may have another clock
+            if then.duration_since(now) < -LATE {
+                let message = format!("the errand is at {}, and that is over (`at` is `{at}`)", stored(then));
+                return Err(Error::said(Code::RoutePast, message, None));
+            }
+            blank.remarks.push(format!("as it is at {} (`at` is `{at}`)", stored(then)));
+        }
         let basis = Basis { ends_in: errand.ends_in(), start_facing: errand.start_facing, ..state.basis() };
         Ok(errand.explained(basis.search(goals, blank)?))
     }

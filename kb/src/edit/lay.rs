@@ -102,7 +102,7 @@ impl Lay {
         }
         if let Some(row) = tx.laid()?.iter().find(|row| row.name == name) {
             let message = format!("the {} `{name}` lies there already", row.what);
-            let help = format!("`adit lift SITE \"{name}\"` takes it away");
+            let help = format!("`adit lift SITE \"{name}\"`, or `DELETE /api/areas/{name}`, takes it away");
             return Err(Error::said(Code::LaidTaken, message, Some(help)));
         }
         check_corners(&self.corners, &tx.laid()?)?;

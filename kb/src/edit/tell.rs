@@ -137,7 +137,8 @@ impl Tell {
         else {
             return Ok(());
         };
-        let help = meant.unwrap_or_else(|| "--new tells a property that no rule reads yet".to_owned());
+        let help =
+            meant.unwrap_or_else(|| "`adit tell --new` tells a property that no rule reads yet".to_owned());
         Err(Error::said(Code::TellUnknownProperty, message, Some(help)))
     }
 

@@ -252,6 +252,8 @@ codes! {
     RouteJson = "route/json", BAD_REQUEST;
     /// A point is outside of the map.
     RouteOutside = "route/outside", BAD_REQUEST;
+    /// The moment of an errand is over.
+    RoutePast = "route/past", BAD_REQUEST;
     /// There is no route, and why cannot be found out.
     RouteReason = "route/reason", BAD_REQUEST;
     /// A point is inside an obstacle.

@@ -15,7 +15,7 @@ use adit_engine::{
 };
 use adit_planners::read::MapReport;
 use adit_planners::routes::{DoorIndex, RoomIndex};
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
 use crate::graph::itinerary::Itinerary;
 use crate::graph::pairs::PlaceCosts;
@@ -334,9 +334,19 @@ pub struct Concluded {
     pub what: String,
     pub property: String,
     /// `null`: nothing was concluded.
+    #[serde(serialize_with = "as_concluded")]
     pub old: Cell,
     /// `null`: nothing is concluded any more.
+    #[serde(serialize_with = "as_concluded")]
     pub new: Cell,
+}
+
+/// Of what rules conclude truth values alone are kept as whole numbers.
+fn as_concluded<S: Serializer>(value: &Cell, to: S) -> Result<S::Ok, S::Error> {
+    match value {
+        Cell::Integer(truth) => to.serialize_bool(*truth != 0),
+        other => other.serialize(to),
+    }
 }
 
 impl Concluded {
@@ -388,6 +398,7 @@ impl Report {
         (routes, stages): (Routes, Vec<Stage>),
     ) -> Self {
         let inputs = Arc::clone(&state.inputs);
+        let mut notes = notes(state);
         let conclusions = state.knowledge.conclude(&inputs.rules);
         let dominated = state.knowledge.dominated(&inputs.rules);
         let misspelt = state.knowledge.misspelt(&inputs.rules);
@@ -417,16 +428,6 @@ impl Report {
             doors.for_each(|measure| measures.entry(measure).or_default().doors += 1);
         }
         let lost = state.told.lost(&state.attached);
-        let idle = state.told.idle_hours(&state.knowledge);
-        let mut notes: Vec<String> =
-            inputs.notes.iter().cloned().chain(state.told.notes.iter().cloned()).chain(idle).collect();
-        notes.extend(lint::unread_marks(&inputs.rules, &state.told.classes));
-        notes.extend(misspelt.iter().map(ToString::to_string));
-        notes.extend(unmet.iter().take(NOTED).map(ToString::to_string));
-        let more = unmet.len().saturating_sub(NOTED);
-        notes.extend(
-            (more > 0).then(|| format!("and {more} more cells name rows that are not there (`adit check`)")),
-        );
         if graph.rooms.is_empty() && state.site.site().has_rooms() {
             notes.push("there is no room: no state of a robot fits anywhere on this map".to_owned());
         } else if weighed.is_none() || graph.places != before.graph.places {
@@ -527,11 +528,28 @@ fn remeasured(old: &Weight, new: &Weight) -> Vec<String> {
     names.filter(|name| old.get(*name) != new.get(*name)).cloned().collect()
 }
 
+/// What the expert should know of files, tables and rules as a state has them, in sentences.
+pub fn notes(state: &State) -> Vec<String> {
+    let (inputs, knowledge) = (&state.inputs, &state.knowledge);
+    let idle = state.told.idle_hours(knowledge);
+    let mut notes: Vec<String> =
+        inputs.notes.iter().cloned().chain(state.told.notes.iter().cloned()).chain(idle).collect();
+    notes.extend(lint::unread_marks(&inputs.rules, &state.told.classes));
+    notes.extend(knowledge.misspelt(&inputs.rules).iter().map(ToString::to_string));
+    let unmet = knowledge.unmet(&inputs.rules);
+    notes.extend(unmet.iter().take(NOTED).map(ToString::to_string));
+    let more = unmet.len().saturating_sub(NOTED);
+    notes.extend(
+        (more > 0).then(|| format!("and {more} more cells name rows that are not there (`adit check`)")),
+    );
+    notes
+}
+
 /// So many places are named.
 const NAMED: usize = 5;
 
 /// The places at which no state of a robot fits, in sentences.
-pub(super) fn unfit_places(state: &State) -> Vec<String> {
+pub(crate) fn unfit_places(state: &State) -> Vec<String> {
     let graph = state.graph();
     if graph.rooms.is_empty() {
         return Vec::new();

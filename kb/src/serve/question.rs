@@ -1,5 +1,7 @@
 //! What a question for a route says behind its question mark.
 
+use std::collections::BTreeSet;
+
 use crate::answer::Answer;
 use crate::edit::Errand;
 use crate::error::{Code, Result};
@@ -26,10 +28,20 @@ impl Question {
     pub fn read(query: &str) -> Answered<Self> {
         let (mut start, mut goals, mut robot, mut within) = (None, Vec::new(), None, None);
         let mut errand = Errand::default();
+        let mut said = BTreeSet::new();
         for (name, value) in form_urlencoded::parse(query.as_bytes()) {
-            match &*name {
-                "start" | "from" => start = Some(value.into_owned()),
-                "goal" | "to" => goals.push(value.into_owned()),
+            let name = match &*name {
+                "from" => "start",
+                "to" => "goal",
+                name => name,
+            };
+            if !["goal", "avoid"].contains(&name) && !said.insert(name.to_owned()) {
+                let message = format!("a route has one `{name}`, and this question says it twice");
+                return Err(Fault::new(Code::ServiceQuestion, message));
+            }
+            match name {
+                "start" => start = Some(value.into_owned()),
+                "goal" => goals.push(value.into_owned()),
                 "robot" => robot = Some(value.into_owned()),
                 "within" => {
                     let metres = value.parse().map_err(|_| {
@@ -42,6 +54,8 @@ impl Question {
                 }
                 "avoid" => errand.avoid.push(value.into_owned()),
                 "load" => errand.load = Some(value.into_owned()),
+                // a + that nobody wrote as %2B has become a blank, and in an instant there is no other
+                "at" if value.contains('T') => errand.at = Some(value.replace(' ', "+")),
                 "at" => errand.at = Some(value.into_owned()),
                 "start_state" => errand.start_state = Some(value.into_owned()),
                 "goal_state" => errand.goal_state = Some(value.into_owned()),

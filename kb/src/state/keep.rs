@@ -363,13 +363,15 @@ fn untabled<'r>(knowledge: &Inference, rules: &'r RuleBase) -> impl Iterator<Ite
     names.filter(move |name| !TABLED.contains(name) && !adds_up(*name) && name.0 != ROUTES)
 }
 
-/// What rules conclude of classes without a table of ours, of the objects that a step touched.
+/// What rules conclude of classes without a table of ours, of the properties that a step touched: of all objects, since rows
+/// that come and go move the others.
 pub fn touched(knowledge: &Inference, rules: &RuleBase, changes: &Changes) -> Vec<Derivation> {
     let mut reasons = Reasons::new(knowledge, rules);
     let mut look = Look { knowledge, rules, which: Which::Touched(changes), reasons: Some(&mut reasons) };
-    untabled(knowledge, rules)
-        .flat_map(|(class, property)| derivations_of(&mut look, class, property))
-        .collect()
+    let names: Vec<_> =
+        untabled(knowledge, rules).filter(|(class, property)| look.may_differ(class, property)).collect();
+    look.which = Which::All;
+    names.into_iter().flat_map(|(class, property)| derivations_of(&mut look, class, property)).collect()
 }
 
 /// Values that rules concluded of one property that has no column of ours.

@@ -85,7 +85,8 @@ async fn a_nurse_closes_a_doorway_on_the_page() {
     browser.screenshot("doorway").await;
     browser.press("#popover", &format!("Close {doorway}")).await;
     browser.says("#close-preview", &format!("{doorway} at")).await;
-    browser.says("#close-preview", "another way").await;
+    browser.says("#close-preview", "another way (hatched in amber)").await;
+    browser.says("#legend", "would change").await;
     assert_eq!(route()["cost"], before["cost"], "nothing is done before it is said");
     browser.press("#tell-card", &format!("Close {doorway}")).await;
     browser.says("#saved", "done").await;

@@ -109,6 +109,8 @@ async fn a_rule_its_test_a_new_file_and_a_cell_are_one_change_saved_and_taken_ba
     browser.type_into("#new-name", "own").await;
     browser.press("#new-file", "Begin it").await;
     browser.says("#rules-name", "own.rhai").await;
+    // what a new file begins with is whole: nothing of it is wrong
+    browser.until("!document.querySelector('#rules .wrong, #rules .problems li')", "nothing is wrong").await;
     browser
         .run("const area = document.querySelector('#rules textarea'); area.value = '// Nothing yet.\\n'; area.dispatchEvent(new Event('input', { bubbles: true }))")
         .await;

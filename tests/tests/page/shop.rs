@@ -56,6 +56,24 @@ async fn a_price_is_tuned_with_what_follows_beside_it() {
     browser.says("[data-table='orders'] [data-key='2']", "49.36").await;
 }
 
+#[tokio::test(flavor = "multi_thread")]
+async fn an_order_that_goes_takes_what_follows_of_it_along_and_one_of_nobody_is_said() {
+    let (_site, service, browser) = at_a_desk("shop", "#map").await;
+    let ask = |edit: serde_json::Value| {
+        service.ask("POST", "/api/preview", Some(&serde_json::json!({"edits": [edit]}))).1
+    };
+    let gone = ask(serde_json::json!({"kind": "remove", "table": "orders", "key": "1"}));
+    let gone = gone["conclusions"].as_array().unwrap().clone();
+    let of = |name: &str| gone.iter().find(|of| of["property"] == name).unwrap().clone();
+    assert!(gone.iter().all(|of| of["what"] == "orders 1" && of["new"].is_null()), "{gone:#?}");
+    assert_eq!((&of("goes_out")["old"], gone.len()), (&serde_json::json!(true), 7));
+    let new = serde_json::json!({"kind": "add", "table": "orders", "key": "9",
+                                 "cells": {"customer": "Adda", "product": "tea", "pieces": "3"}});
+    let notes = ask(new)["notes"].clone();
+    assert!(notes.to_string().contains("Adda"), "{notes}");
+    drop(browser);
+}
+
 /// What rules may speak of stands beside the editor, and is written where the cursor is.
 #[tokio::test(flavor = "multi_thread")]
 async fn classes_and_properties_stand_beside_the_editor_and_are_written_by_a_click() {

@@ -79,6 +79,33 @@ fn an_errand_later_is_led_as_it_is_then() {
     assert_eq!(asked(&service, &format!("{WAY}&at=1h"))["status"], "no_route");
     let (status, refused) = service.ask("GET", &format!("/api/route?{WAY}&at=soon"), None);
     assert_eq!(status, 400, "{refused}");
+    // which moment that is, is said; one that is over is none
+    let remarks = asked(&service, &format!("{WAY}&at=2099-11-21T18:00:00+01:00"))["remarks"].clone();
+    assert!(remarks[0].as_str().unwrap().starts_with("as it is at 2099-11-21T17:00:00Z"), "{remarks}");
+    for at in ["-2h", "2020-01-01"] {
+        let (status, refused) = service.ask("GET", &format!("/api/route?{WAY}&at={at}"), None);
+        assert_eq!((status, &refused["error"]["code"]), (400, &json!("route/past")), "{refused}");
+    }
+    let (status, refused) = service.ask("GET", &format!("/api/route?{WAY}&start=lobby"), None);
+    assert_eq!(status, 400, "{refused}");
+    assert!(refused.to_string().contains("one `start`, and this question says it twice"), "{refused}");
+}
+
+#[test]
+fn a_list_of_robots_without_one_closes_to_nobody() {
+    let (site, service) = served("depot");
+    for list in ["only", "except"] {
+        let blocked = json!({"x": 8.0, "y": 6.0, "heading": 0.0, list: []});
+        let edit = json!({"edit": {"kind": "close", "what": "8,6@0", list: []}});
+        for (route, body) in [("/api/blocked", blocked), ("/api/edits", edit)] {
+            let (status, refused) = service.ask("POST", route, Some(&body));
+            assert_eq!(status, 422, "{refused}");
+            assert!(refused.to_string().contains("the name of one robot at least"), "{refused}");
+        }
+    }
+    assert_eq!(site.sqlite3("SELECT count(*) FROM told"), ["0"]);
+    let (status, refused) = service.ask("DELETE", "/api/facts/1?reason=x", None);
+    assert_eq!(status, 400, "{refused}");
 }
 
 #[test]

@@ -8,7 +8,8 @@ use adit_db::history::Author;
 use axum::Json;
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
-use serde::{Deserialize, Serialize};
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize};
 use utoipa::ToSchema;
 
 use super::extract::{Body, Site};
@@ -125,11 +126,11 @@ pub enum Wish {
     Close {
         /// Its name; or a point `x,y`, with the heading of a robot that was blocked there: `x,y@90`.
         what: String,
-        /// The robots that are kept out; all where none is said.
-        #[serde(default)]
+        /// The robots that are kept out, one at least; all where this is not said.
+        #[serde(default, deserialize_with = "some_names")]
         only: Vec<String>,
-        /// The robots that come through all the same.
-        #[serde(default)]
+        /// The robots that come through all the same, one at least.
+        #[serde(default, deserialize_with = "some_names")]
         except: Vec<String>,
         /// The space from which nobody passes the doorway; the other way it stays open.
         #[serde(default)]
@@ -414,6 +415,17 @@ pub async fn edit(site: Site, caller: Caller, Body(body): Body<EditBody>) -> Ans
     make(&site, &caller, edit, body.why.unwrap_or_default()).await.map(Json)
 }
 
+/// Names of robots. None is no way to say all: whoever has picked robots and found none would close to everybody.
+fn some_names<'de, D: Deserializer<'de>>(given: D) -> Result<Vec<String>, D::Error> {
+    let names = Vec::<String>::deserialize(given)?;
+    if names.is_empty() {
+        return Err(D::Error::custom(
+            "expected the name of one robot at least; without the list it is for all",
+        ));
+    }
+    Ok(names)
+}
+
 /// Where a robot is that cannot go on.
 #[derive(Debug, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
@@ -423,13 +435,14 @@ pub struct BlockedBody {
     y: f64,
     /// Where it was to go, degrees counterclockwise from +x.
     heading: f64,
-    /// The robots for which it is blocked; all where none is said.
-    #[serde(default)]
+    /// The robots for which it is blocked, one at least; all where this is not said.
+    #[serde(default, deserialize_with = "some_names")]
     only: Vec<String>,
-    /// The robots that come through all the same.
-    #[serde(default)]
+    /// The robots that come through all the same, one at least.
+    #[serde(default, deserialize_with = "some_names")]
     except: Vec<String>,
-    /// When the way is free again: `18:00`, `2h`, `2026-11-21T18:00:00Z`.
+    /// When the way is free again: `18:00`, `2h`, `2026-11-21T18:00:00Z`; somebody opens it where neither this nor `for_seconds`
+    /// is said.
     #[serde(default)]
     until: Option<String>,
     /// After how many seconds, instead.

@@ -17,6 +17,7 @@ use crate::serve::gate::require;
 use crate::serve::role::{Caller, Role};
 use crate::why::firm::Firm;
 #[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Way {
     start: String,
     goal: String,
@@ -57,6 +58,7 @@ pub struct TraversalsBody {
 }
 
 #[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Measured {
     measure: Option<String>,
 }
@@ -104,6 +106,7 @@ pub async fn clear(site: Site, caller: Caller) -> Answered<Json<Removed>> {
 }
 
 #[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Fitted {
     robot: Option<String>,
     measure: Option<String>,

@@ -117,6 +117,7 @@ pub async fn tell(site: Site, caller: Caller, Body(body): Body<TellBody>) -> Ans
 }
 
 #[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Why {
     #[serde(default)]
     pub why: String,

@@ -12,6 +12,7 @@ use crate::serve::fault::Answered;
 const MOST: u32 = 1_000;
 
 #[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Part {
     limit: Option<u32>,
     before: Option<i64>,

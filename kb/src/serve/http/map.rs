@@ -199,6 +199,7 @@ impl MapAnswer {
 }
 
 #[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Drawn {
     start: Option<String>,
     goal: Option<String>,
@@ -328,6 +329,7 @@ struct Weights {
 }
 
 #[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Weighed {
     changes: Option<bool>,
 }

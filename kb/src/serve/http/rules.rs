@@ -120,6 +120,7 @@ pub async fn save(
 }
 
 #[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Version {
     version: Option<String>,
 }
@@ -148,6 +149,7 @@ async fn replace(site: &Site, caller: &Caller, write: Write) -> Answered<Saved> 
 }
 
 #[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct VersionsOf {
     file: String,
 }
@@ -322,6 +324,7 @@ pub async fn tables(
 }
 
 #[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct What {
     what: String,
 }

@@ -66,6 +66,7 @@ pub async fn ask(site: Site, caller: Caller, Body(body): Body<SqlBody>) -> Answe
 }
 
 #[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Download {
     query: String,
     #[serde(default)]

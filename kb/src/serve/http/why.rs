@@ -14,6 +14,7 @@ use crate::why::why_not::WhyNot;
 
 /// Of a thing, or of a route.
 #[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct What {
     #[serde(rename = "what")]
     thing: Option<String>,
@@ -93,6 +94,7 @@ pub async fn ask(site: Site, Body(body): Body<AskBody>) -> Answered<Json<ask::As
 }
 
 #[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct OtherWay {
     start: String,
     goal: String,
