@@ -164,8 +164,10 @@ fn apart(
     let Some(way) = width.filter(|way| way.width > slimmest) else {
         return Ok(match width {
             Some(way) => format!(
-                "the widest way is {:.2} m wide at ({:.2}, {:.2}), and the slimmest state needs more than {slimmest} m",
-                way.width, way.at.x, way.at.y
+                "the widest way is {} m wide at ({:.2}, {:.2}), and the slimmest state needs more than {slimmest} m",
+                number(way.width),
+                way.at.x,
+                way.at.y
             ),
             None => "walls part start and goal: there is no way of any width".to_owned(),
         });
@@ -184,14 +186,18 @@ fn apart(
                 format!("only {} is", lower.join(", "))
             };
             format!(
-                "every way leads under a bridge of {height} m at ({:.2}, {:.2}): {who} lower, and the widest way is {:.2} m wide",
-                at.x, at.y, way.width
+                "every way leads under a bridge of {height} m at ({:.2}, {:.2}): {who} lower, and the widest way is {} m wide",
+                at.x,
+                at.y,
+                number(way.width)
             )
         }
         _ => format!(
-            "the widest way is {:.2} m wide at ({:.2}, {:.2}), and the slimmest state needs {slimmest} m: rules do not let that \
+            "the widest way is {} m wide at ({:.2}, {:.2}), and the slimmest state needs {slimmest} m: rules do not let that \
              state move, or change into it",
-            way.width, way.at.x, way.at.y
+            number(way.width),
+            way.at.x,
+            way.at.y
         ),
     })
 }

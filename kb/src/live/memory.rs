@@ -235,7 +235,10 @@ impl Memory {
             site.spoken(&self.state.inputs.rules, &told)?;
         }
         clock.lap("edit");
-        let step = self.state.step_and_react(tx, told, Recalled::Nothing, progress)?;
+        let mut step = self.state.step_and_react(tx, told, Recalled::Nothing, progress)?;
+        if let (Some(before), Some(now)) = (&self.state.courses, &step.courses) {
+            step.told.notes.extend(now.renumbered(before));
+        }
         clock.skip();
         clock.stages.extend(step.stages.iter().cloned());
         let (state, graph) = (&self.state, Arc::clone(self.state.graph_after(&step)));

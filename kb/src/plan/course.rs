@@ -1,6 +1,7 @@
 //! Routes over maps that are not cut into rooms: what the planner of such a map is asked, and what it asks rules.
 
 use std::any::Any;
+use std::collections::BTreeMap;
 use std::fmt;
 use std::sync::Arc;
 
@@ -79,6 +80,11 @@ pub trait Pathfinder: Send + Sync {
 
     /// What there is of what, in words: `6 channels, 8 junctions`.
     fn summary(&self) -> String;
+
+    /// The junctions of which something is told by their number, with what else they are called: `channels 3 and 4`.
+    fn told_by_number(&self) -> BTreeMap<usize, String> {
+        BTreeMap::new()
+    }
 
     /// What of the map as tables have it now counts for nothing, in sentences.
     fn notes(&self) -> Vec<String> {

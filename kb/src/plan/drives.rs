@@ -16,10 +16,9 @@ use adit_planners::planner::Planner;
 use super::consult::Class;
 use super::corridor::{Corridor, Driven};
 use super::course::{
-    Asked as Rules, Course, Found, NoEnd, ObjectsOf, Pathfinder, no_map, no_through, numbered, point,
-    refuse_gaps,
+    Asked as Rules, Course, Found, NoEnd, Pathfinder, no_map, no_through, numbered, point, refuse_gaps,
 };
-use super::gap::{Asked, Wanted};
+use super::gap::{self, Asked, Wanted};
 use super::rules::Kind;
 use super::said::{Answer, Said};
 use super::turns::{self, Turns};
@@ -130,18 +129,8 @@ impl Course for CorridorsOf {
             Ok((places.text(row, "place").unwrap_or_default(), at))
         };
         let places = places.rows().map(place).collect::<Result<BTreeMap<_, _>>>()?;
-        let gap = |of: ObjectsOf<'_>, row: usize| match of.number(row, "gap") {
-            Some(gap) => Ok(Asked::Gap([gap])),
-            None => match of.text(row, "gap_by").as_deref() {
-                None | Some("rules") => Ok(Asked::Rules),
-                Some("safest") => Ok(Asked::Safest),
-                Some(other) => Err(of.wrong(row, "gap_by", "`rules` or `safest`", Some(other))),
-            },
-        };
-        let at_junctions = gaps
-            .rows()
-            .map(|row| Ok((gaps.needed(row, "junction")? as usize, gap(gaps, row)?)))
-            .collect::<Result<BTreeMap<_, _>>>()?;
+        let column = ["gap".to_owned()];
+        let at_junctions = gap::at_junctions(gaps, corridors.junctions().len(), &column)?;
         let vehicles = rules.objects("VEHICLES");
         let vehicle = |row: usize| -> Result<Vehicle> {
             let size = |name: &str| {
@@ -159,7 +148,7 @@ impl Course for CorridorsOf {
                 heading: vehicles.number(row, "heading").map(f64::to_radians),
                 wanted: Wanted {
                     mover,
-                    gap: gap(vehicles, row)?,
+                    gap: gap::of_row(vehicles, row, &column)?,
                     gaps: at_junctions.clone(),
                     fragile: vehicles.truth(row, "fragile"),
                     hurry: vehicles.truth(row, "hurry"),
@@ -167,9 +156,10 @@ impl Course for CorridorsOf {
             })
         };
         let vehicles = vehicles.rows().map(vehicle).collect::<Result<Vec<_>>>()?;
+        let with_gaps = at_junctions.keys().copied().collect();
         let [turns, passages] = turns::classes();
         let turns = Mutex::new(Turns::of(rules.consultation(&turns)?, rules.consultation(&passages)?));
-        Ok(Box::new(Drives { corridors, closed, vehicles, places, turns }))
+        Ok(Box::new(Drives { corridors, closed, with_gaps, vehicles, places, turns }))
     }
 }
 
@@ -183,6 +173,8 @@ struct Vehicle {
 struct Drives {
     corridors: Corridors,
     closed: BTreeSet<usize>,
+    /// The junctions that have gaps of their own.
+    with_gaps: BTreeSet<usize>,
     vehicles: Vec<Vehicle>,
     places: BTreeMap<String, Point>,
     turns: Mutex<Turns>,
@@ -235,6 +227,15 @@ impl Drives {
 }
 
 impl Pathfinder for Drives {
+    fn told_by_number(&self) -> BTreeMap<usize, String> {
+        let junction = |number: &usize| {
+            let junction = self.corridors.junctions().get(number.checked_sub(1)?)?;
+            let (one, other) = (junction.lying.min(junction.upright), junction.lying.max(junction.upright));
+            Some((*number, format!("channels {one} and {other}")))
+        };
+        self.with_gaps.iter().filter_map(junction).collect()
+    }
+
     fn robots(&self) -> Vec<String> {
         self.vehicles.iter().map(|vehicle| vehicle.wanted.mover.clone()).collect()
     }

@@ -7,6 +7,9 @@ use adit_planners::read::{Code, Fields, Problem};
 use toml::Spanned;
 use toml::de::DeValue;
 
+use super::course::ObjectsOf;
+use crate::error::Result;
+
 /// The gap that is asked for: `N` numbers, one an axis.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Asked<const N: usize> {
@@ -69,6 +72,23 @@ impl<const N: usize> Asked<N> {
     }
 
     fn value(
+        fields: &Fields<'_, '_>,
+        value: &Spanned<DeValue<'_>>,
+        problems: &mut Vec<Problem>,
+    ) -> Option<Self> {
+        let read = Self::number_or_word(fields, value, problems)?;
+        if let Self::Gap(gap) = &read
+            && let Some(below) = gap.iter().find(|gap| **gap < 0.0)
+        {
+            let message =
+                format!("`gap` is {below}, and a gap is what is left free: expected 0 or more metres");
+            problems.push(fields.text.problem(Code::NotPositive, &value.span(), message));
+            return None;
+        }
+        Some(read)
+    }
+
+    fn number_or_word(
         fields: &Fields<'_, '_>,
         value: &Spanned<DeValue<'_>>,
         problems: &mut Vec<Problem>,
@@ -172,6 +192,48 @@ fn gaps_of_junctions<const N: usize>(
         }
     }
     gaps
+}
+
+/// The gap that a row of a table asks for, in these columns and `gap_by`; the numbers count where all are given.
+pub(super) fn of_row<const N: usize>(
+    of: ObjectsOf<'_>,
+    row: usize,
+    columns: &[String; N],
+) -> Result<Asked<N>> {
+    let by = of.text(row, "gap_by");
+    let otherwise = match by.as_deref() {
+        None | Some("rules") => Asked::Rules,
+        Some("safest") => Asked::Safest,
+        Some(other) => return Err(of.wrong(row, "gap_by", "`rules` or `safest`", Some(other))),
+    };
+    let given = columns.each_ref().map(|name| of.number(row, name));
+    for (name, found) in columns.iter().zip(given) {
+        if let Some(found) = found.filter(|found| *found < 0.0) {
+            return Err(of.wrong(row, name, "0 or more metres", Some(&found.to_string())));
+        }
+    }
+    // one is emptied after the other: what is not given along all axes is none
+    if given.iter().any(Option::is_none) {
+        return Ok(otherwise);
+    }
+    Ok(Asked::Gap(given.map(Option::unwrap_or_default)))
+}
+
+/// The gaps that the table GAPS asks for, by junction, of which there are so many.
+pub(super) fn at_junctions<const N: usize>(
+    gaps: ObjectsOf<'_>,
+    junctions: usize,
+    columns: &[String; N],
+) -> Result<BTreeMap<usize, Asked<N>>> {
+    let gap = |row: usize| {
+        let number = gaps.needed(row, "junction")?;
+        if number < 1.0 || number > junctions as f64 || number.fract() != 0.0 {
+            let expected = format!("1 to {junctions}");
+            return Err(gaps.wrong(row, "junction", &expected, Some(&number.to_string())));
+        }
+        Ok((number as usize, of_row(gaps, row, columns)?))
+    };
+    gaps.rows().map(gap).collect()
 }
 
 /// Refuses gaps for junctions that a world of so many has not.

@@ -1,6 +1,5 @@
 //! A part in another one as a site: the tables that its file fills, and the way out and back in.
 
-use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -17,7 +16,7 @@ use super::consult::Class;
 use super::course::{
     Asked as Rules, Course, Found, NoEnd, ObjectsOf, Pathfinder, no_map, no_through, numbered, refuse_gaps,
 };
-use super::gap::{Asked, Wanted};
+use super::gap::{self, Asked, Wanted};
 use super::rules::Kind;
 use super::said::{Answer, Said};
 use super::steps::{self, AXES, Steps, named};
@@ -156,10 +155,7 @@ impl<const D: usize> Course for PartsOf<D> {
             (rules.objects("CHANNELS"), rules.objects("PARTS"), rules.objects("GAPS"));
         refuse_gaps(channels, "channel")?;
         let boxes = channels.rows().map(|row| cuboid::<D>(channels, row)).collect::<Result<Vec<_>>>()?;
-        let at_junctions = gaps
-            .rows()
-            .map(|row| Ok((gaps.needed(row, "junction")? as usize, gap::<D>(gaps, row)?)))
-            .collect::<Result<BTreeMap<_, _>>>()?;
+        let columns = of_axes::<D>("gap");
         let part = |row: usize| -> Result<Assembly<D>> {
             let moves = parts.text(row, "moves");
             let female_moves = match moves.as_deref() {
@@ -167,12 +163,15 @@ impl<const D: usize> Course for PartsOf<D> {
                 Some("female") => true,
                 Some(other) => return Err(parts.wrong(row, "moves", "`male` or `female`", Some(other))),
             };
+            let geometry =
+                geometry::Assembly::new(boxes.clone(), cuboid::<D>(parts, row)?).map_err(no_map)?;
+            let gaps = gap::at_junctions(gaps, geometry.junctions().len(), &columns)?;
             Ok(Assembly {
-                geometry: geometry::Assembly::new(boxes.clone(), cuboid::<D>(parts, row)?).map_err(no_map)?,
+                geometry,
                 wanted: Wanted {
                     mover: parts.text(row, "part").unwrap_or_default(),
-                    gap: gap::<D>(parts, row)?,
-                    gaps: at_junctions.clone(),
+                    gap: gap::of_row(parts, row, &columns)?,
+                    gaps,
                     fragile: parts.truth(row, "fragile"),
                     hurry: parts.truth(row, "hurry"),
                 },
@@ -209,19 +208,6 @@ fn vector<const D: usize>(of: ObjectsOf<'_>, row: usize, what: &str) -> Result<O
         *at = of.needed(row, name)?;
     }
     Ok(Some(vector))
-}
-
-fn gap<const D: usize>(of: ObjectsOf<'_>, row: usize) -> Result<Asked<D>> {
-    // one is emptied after the other: what is not given along all axes is none
-    let given = of_axes::<D>("gap").map(|name| of.number(row, &name));
-    if given.iter().all(Option::is_some) {
-        return Ok(Asked::Gap(given.map(Option::unwrap_or_default)));
-    }
-    match of.text(row, "gap_by").as_deref() {
-        None | Some("rules") => Ok(Asked::Rules),
-        Some("safest") => Ok(Asked::Safest),
-        Some(other) => Err(of.wrong(row, "gap_by", "`rules` or `safest`", Some(other))),
-    }
 }
 
 /// The ways of parts out of another one and into it, as they are.

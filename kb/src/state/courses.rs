@@ -112,6 +112,19 @@ impl Courses {
         self.finder.summary()
     }
 
+    /// The junctions of which something is told by their number, and which have other numbers than before, in sentences.
+    pub fn renumbered(&self, before: &Self) -> Vec<String> {
+        let (was, is) = (before.finder.told_by_number(), self.finder.told_by_number());
+        let others = was.iter().filter_map(|(number, was)| Some((number, was, is.get(number)?)));
+        let others = others.filter(|(_, was, is)| was != is);
+        let sentence = |(number, was, is)| {
+            format!(
+                "junctions are numbered otherwise: the gap of junction {number} was that of {was}, and is that of {is} now"
+            )
+        };
+        others.map(sentence).collect()
+    }
+
     /// What of the map counts for nothing, in sentences.
     pub fn notes(&self) -> Vec<String> {
         self.finder.notes()

@@ -86,12 +86,12 @@ impl Network {
         if mesh.openings.is_empty() && !regions.doorways.is_empty() {
             let widest = regions.doorways.iter().map(super::Doorway::width).fold(0.0, f64::max);
             let message = format!(
-                "the robot is too wide for each of the {} doorways: it needs {} m ({} m and a margin of {} m on \
-                 either side), and the widest is {widest:.3} m",
-                regions.doorways.len(),
+                "the robot is too wide for every doorway: it needs more than {} m ({} m and a margin of {} m on \
+                 either side), and the widest has {} m",
                 2.0 * disc.reach(),
                 2.0 * disc.radius,
                 disc.margin,
+                (widest * 1000.0).round() / 1000.0,
             );
             return Err(Problem::of_file(Code::RobotTooWide, message).into());
         }

@@ -17,6 +17,10 @@ pub struct Narrowest {
 
 /// Steps along the way on both sides of a narrow point that are searched anew, on a finer lattice.
 const MARGIN: usize = 5;
+/// Over so many metres on both sides it is found in which direction there is more room.
+const SLOPE_M: f64 = 1e-6;
+/// So often the stretch is made shorter by a third on which a gap's middle lies.
+const HALVINGS: usize = 48;
 /// Fine steps in a coarse one.
 const FINER: usize = 8;
 
@@ -26,7 +30,7 @@ const FINER: usize = 8;
 /// `step` is the side of the lattice on which ways are searched, metres, such as that of the layers.
 ///
 /// # Returns
-/// The narrowest point of that way, to about an eighth of `step`; `None` where no way is wider than a step.
+/// The narrowest point of that way; `None` where no way is wider than a step.
 pub fn narrowest(world: &World, from: Point, to: Point, step: f64) -> Option<Narrowest> {
     let walls = Clearance::new(world);
     let mut way = search(&walls, world.bounds, (from, to), step)?;
@@ -36,6 +40,14 @@ pub fn narrowest(world: &World, from: Point, to: Point, step: f64) -> Option<Nar
         let (at, clearance) = way[least];
         let (first, last) = (least.saturating_sub(MARGIN), (least + MARGIN).min(way.len() - 1));
         if refined[least] || first == last {
+            let within = clearance + step / FINER as f64;
+            let inner = way.get(1..way.len() - 1).unwrap_or_default();
+            let narrow = inner.iter().filter(|(_, known)| *known <= within);
+            let mut settled: Vec<(Point, f64)> =
+                narrow.map(|&(p, known)| centred(&walls, (p, known), step)).collect();
+            // where they begin and end ways are told, and not to be moved
+            settled.extend([way[0], way[way.len() - 1]]);
+            let (at, clearance) = middle_of_least(&settled).map_or((at, clearance), |least| settled[least]);
             return Some(Narrowest { width: 2.0 * clearance, at });
         }
         // The ends of the window may lie in a wrong place of a narrow; what is between them is settled.
@@ -65,6 +77,30 @@ fn middle_of_least(way: &[(Point, f64)]) -> Option<usize> {
     let first = way.iter().position(is_least)?;
     let length = way[first..].iter().take_while(|point| is_least(point)).count();
     Some(first + length / 2)
+}
+
+/// A point of a lattice, moved straight away from the nearest wall to the middle of the gap in which it lies.
+fn centred(walls: &Clearance, (at, known): (Point, f64), step: f64) -> (Point, f64) {
+    let beside = |dx: f64, dy: f64| walls.at(Point::new(at.x + dx, at.y + dy));
+    let slope = Point::new(
+        beside(SLOPE_M, 0.0) - beside(-SLOPE_M, 0.0),
+        beside(0.0, SLOPE_M) - beside(0.0, -SLOPE_M),
+    );
+    let steep = slope.x.hypot(slope.y);
+    if steep < ROUNDING_M {
+        return (at, known);
+    }
+    let along = |metres: f64| {
+        let p = Point::new(at.x + slope.x / steep * metres, at.y + slope.y / steep * metres);
+        (p, walls.at(p))
+    };
+    let (mut low, mut high) = (0.0, step);
+    for _ in 0..HALVINGS {
+        let [one, other] = [low + (high - low) / 3.0, high - (high - low) / 3.0];
+        if along(one).1 < along(other).1 { low = one } else { high = other }
+    }
+    let found = along(f64::midpoint(low, high));
+    if found.1 > known { found } else { (at, known) }
 }
 
 /// Searches `window` on a lattice of its own. The way has each point's clearance, the ends included.

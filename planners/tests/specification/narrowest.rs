@@ -24,7 +24,7 @@ fn of_two_gaps_the_wider_counts_wherever_it_lies_on_the_lattice() {
     for shift in [0.0, 0.013, 0.02, 0.031, 0.05] {
         let world = rooms(0.15, &[(1.0 + shift, 1.45 + shift), (3.0, 3.3)]);
         let found = narrowest(&world, FROM, TO, 0.1).unwrap();
-        assert!((found.width - 0.45).abs() < 0.015, "{shift}: {found:?}");
+        assert!((found.width - 0.45).abs() < 1e-6, "{shift}: {found:?}");
         assert!(found.at.distance(Point::new(5.075, 1.225 + shift)) < 0.2, "{shift}: {found:?}");
     }
 }
@@ -52,7 +52,7 @@ fn walls_of_an_image_count_alike() {
     let cells = Occupancy { origin: Point::default(), resolution: 0.1, columns: 100, rows: 40, blocked };
     let world = World { occupancy: Some(cells), ..World::empty(Rect::new(0.0, 0.0, 10.0, 4.0)) };
     let found = narrowest(&world, FROM, TO, 0.1).unwrap();
-    assert!((found.width - 0.6).abs() < 0.015, "{found:?}");
+    assert!((found.width - 0.6).abs() < 1e-6, "{found:?}");
 }
 
 #[test]

@@ -362,7 +362,7 @@ fn what_is_open_is_not_opened_again_and_a_blocked_robot_closes_where_it_is() {
     site.adit("close", &["1.5,18"]).expecting(2).complains(&["lies in channel 1 and in channel 2"]);
     site.adit("close", &["channel 2", "--only", "robot"])
         .expecting(2)
-        .complains(&["rule of PASSAGES, WAYS or TRAVELS"]);
+        .complains(&["rule of PASSAGES to say"]);
     let channel = site.adit("why", &["channel 1 from start to goal"]).expecting(0).stdout;
     assert!(channel.contains("weight is"), "{channel}");
 }
@@ -407,4 +407,35 @@ fn a_slip_in_a_rule_a_cell_or_the_map_is_named_and_nothing_is_lost() {
     site.adit("build", &[]).expecting(2).complains(&["corridors.toml:6", "a channel has 3 numbers"]);
     site.adit("history", &[]).expect_status(0);
     assert_ne!(site.sqlite3("SELECT * FROM route"), before, "what was there stays");
+}
+
+/// A loop about a block, with a gap of its own at the junction of two channels.
+const LOOP: &str = "[corridor]
+channels = [[0, 0, 2, 10], [0, 8, 12, 10], [10, 0, 12, 10], [0, 0, 12, 1.6], [5, 8, 7, 14]]
+robot = { width = 0.8, length = 1.2 }
+gap = 0.2
+start = [1, 5]
+goal = [11, 4]
+";
+
+#[test]
+fn gaps_that_no_file_could_have_are_refused_and_a_junction_that_gets_another_number_is_said() {
+    let site = TestSite::empty();
+    site.write("loop.toml", LOOP);
+    site.write("site.toml", "map = \"loop.toml\"\n");
+    site.adit("build", &[]).expect_status(0);
+    let before = site.sqlite3("SELECT * FROM gaps; SELECT * FROM vehicles");
+    for (edit, said) in [
+        (&["gaps", "9", "--add", "gap=0.2"][..], "gaps 9: junction is `9`, expected 1 to 5"),
+        (&["vehicles", "robot", "gap", "-1"], "gap is `-1`, expected 0 or more metres"),
+        (&["vehicles", "robot", "gap_by", "saffe"], "gap_by is `saffe`, expected `rules` or `safest`"),
+    ] {
+        site.adit("tune", edit).expecting(2).complains(&[said]);
+    }
+    assert_eq!(site.sqlite3("SELECT * FROM gaps; SELECT * FROM vehicles"), before);
+    site.adit("tune", &["gaps", "5", "--add", "gap=0.3"]).expect_status(0);
+    let crossing = ["channels", "6", "--add", "x0=7", "y0=8", "x1=9", "y1=14"];
+    site.adit("tune", &crossing)
+        .expecting(0)
+        .complains(&["the gap of junction 5 was that of channels 3 and 4, and is that of channels 2 and 6"]);
 }

@@ -75,10 +75,7 @@ fn a_gap_beyond_the_bound() {
         &with_gap(SECTION_4, "0.26"),
         &["the gap in x at junction 2 is 0.26, and at most 0.255 is possible"],
     );
-    no_route(
-        &with_gap(SECTION_4, "-0.1"),
-        &["the gap at junction 2 is -0.1, and a gap is what is left free"],
-    );
+    unusable(&with_gap(SECTION_4, "-0.1"), &["`gap` is -0.1, and a gap is what is left free"]);
 }
 
 #[test]

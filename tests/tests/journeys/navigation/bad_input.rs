@@ -68,7 +68,7 @@ fn places_in_walls_and_outside() {
 #[test]
 fn robots_that_are_none() {
     for (radius, said) in [
-        ("5.0", "too wide for each of the"),
+        ("5.0", "too wide for every doorway"),
         ("1e14", "no floor is so wide"),
         ("1e300", "numbers up to 1e15"),
         ("nan", "must be a finite number"),
