@@ -2,7 +2,7 @@
 
 import { post } from './api.js';
 import { button, byId, el, fill, focusStays, form } from './dom.js';
-import { value as inWords } from './format.js';
+import { count, value as inWords } from './format.js';
 import { model } from './model.js';
 import { said } from './notice.js';
 import { refresh } from './refresh.js';
@@ -40,7 +40,7 @@ function shown({ status, value, why, what, question, weighed }) {
   const isOpen = answers.some((answer) => answer.value === null);
   const reasons = el('ul', { class: 'plain' }, ...(isOpen ? [] : why).map((text) => el('li', { text })));
   const found = status === 'known' ? [el('p', {}, el('b', { text: `${what} is ${inWords(value)}` })), reasons] : [el('p', { text: isOpen ? `${what} is unknown as long as that is not known.` : `${what} is unknown, and nothing that can be asked would settle it.` }), reasons];
-  return [...told, ...found, el('p', { class: 'hint', text: `Rules weighed ${weighed} objects for it.` })];
+  return [...told, ...found, weighed ? el('p', { class: 'hint', text: `Rules weighed ${count(weighed, 'object')} for it.` }) : null];
 }
 
 function keepButton({ question }) {

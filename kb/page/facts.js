@@ -43,7 +43,7 @@ function toTheTray() {
 function tellForm() {
   const withTheRest = button('Save it with the rest', toTheTray, { id: 'fact-with-the-rest' });
   const kind = el('select', { id: 'fact-kind' }, ...usualHere().map((name) => el('option', { value: name, text: USUAL[name].text })));
-  const made = form({ class: 'fact-form' }, tell, el('label', {}, 'What ', kind), field('Class', 'class', { placeholder: 'ROOMS, AREAS…' }), field('Which', 'object', { required: true }),
+  const made = form({ class: 'fact-form' }, tell, el('label', {}, 'What ', kind), field('Class', 'class', { placeholder: model.site.rooms_mode === 'none' || model.site.layout_kind ? 'in capitals, as its table is called' : 'ROOMS, AREAS…' }), field('Which', 'object', { required: true }),
     field('Property', 'property'), field('Value', 'value'), field('Until', 'until', { placeholder: 'taken back, 18:00, 2h', title: 'A time, a while, or a day with its time: 18:00, 2h, 2026-12-24T08:00' }), field('Why', 'why', { placeholder: 'if you like' }), el('div', { class: 'buttons' }, send, withTheRest));
   const choose = () => {
     const usual = USUAL[kind.value];

@@ -34,7 +34,7 @@ function row(entries, undoing) {
   const texts = ordered.filter(isFile).map((entry) => el('details', {}, el('summary', { text: `What changed in ${entry.key}` }), lazily(() => difference(entry.old ?? '', entry.new ?? ''))));
   const open = entries.filter(({ undone }) => !undone);
   const undo = !open.length ? el('span', { class: 'hint', text: 'taken back' })
-    : model.may('tune') ? button('Undo…', () => takeBack(open[0].id, what), { 'aria-label': `Undo ${what}` }) : null;
+    : model.may('tune') ? button('Undo…', () => takeBack(open[0].id, all.length > 1 ? `${what}, and ${all.length - 1} more` : what), { 'aria-label': `Undo ${what}` }) : null;
   const by = [first.who, first.why].filter(Boolean).join(': ');
   return [moment(first.at), el('div', { class: 'what' }, what, by ? el('p', { class: 'hint', text: by }) : null, more, ...texts), undo];
 }

@@ -44,6 +44,7 @@ export class Classes {
   label(index) {
     if (this.single) return number(this.bounds[index]);
     const from = index ? this.bounds[index - 1] : this.least;
+    if (number(from) === number(this.bounds[index])) return number(from);
     return `${number(from)} to ${number(this.bounds[index])}`;
   }
 }

@@ -8,6 +8,7 @@ import { model } from './model.js';
 import { said } from './notice.js';
 import { address, onTab, remember } from './router.js';
 
+const CONCLUDED = 'SELECT object, property, value, rule\nFROM conclusions\nORDER BY object, property\nLIMIT 100;';
 const FIRST = 'SELECT step, kind, place, action, hardness, cost\nFROM action_sequence\nWHERE start = \'START\' AND goal = \'GOAL\'\nORDER BY step;';
 
 let pane = null;
@@ -89,7 +90,8 @@ function show(params) {
   if (query && query !== pane.text.trim()) pane.show(query);
   else if (!began && !pane.text) {
     const quoted = (text) => text.replaceAll("'", "''");
-    pane.show(FIRST.replace('START', quoted(model.ask.start || 'home')).replace('GOAL', quoted(model.ask.goal || 'a')));
+    if (model.site.rooms_mode === 'none' && !model.site.layout_kind) pane.show(CONCLUDED);
+    else pane.show(FIRST.replace('START', quoted(model.ask.start || 'home')).replace('GOAL', quoted(model.ask.goal || 'a')));
   }
   if (!began) {
     schema();

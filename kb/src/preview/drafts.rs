@@ -17,6 +17,7 @@ use crate::error::Result;
 use crate::error::problem::Problem;
 use crate::graph::{Rules, SiteGraph};
 use crate::knowledge::KnowledgeBase;
+use crate::knowledge::inputs::Inputs;
 use crate::live::report::Concluded;
 use crate::site::rules::Drafts;
 use crate::state::{State, keep};
@@ -96,8 +97,16 @@ impl State {
         let (after, step, cells, outcomes) = rehearsed?;
         let decides = {
             let graphs = (&**self.graph(), &**after.graph_after(&step));
-            let names = [&self.inputs.rule_names, &inputs.rule_names];
-            decides([about(graphs.0, names[0]), about(graphs.1, names[1])], step.is_cut_anew)
+            // a revision changes what another rule decides, and decides nothing itself
+            let revises = |inputs: &Inputs, name: &str| {
+                inputs.rules.rules().iter().any(|rule| rule.name() == name && rule.level().is_some())
+            };
+            let of = |graph: &SiteGraph, inputs: &Inputs| {
+                let mut about = about(graph, &inputs.rule_names);
+                about.retain(|name, _| !revises(inputs, name));
+                about
+            };
+            decides([of(graphs.0, &self.inputs), of(graphs.1, &inputs)], step.is_cut_anew)
         };
         let failed = outcomes.iter().filter(|outcome| !outcome.failures.is_empty()).count();
         let passed = outcomes.len() - failed;

@@ -38,7 +38,7 @@ async fn what_was_done_in_one_go_is_one_entry_in_words_and_taken_back_with_a_pre
     assert_eq!(browser.value(undos).await, 1);
 
     browser.press("#history", "Undo").await;
-    browser.says("dialog", "Take back “Robot states, SQUAT hardness 4 → 3”?").await;
+    browser.says("dialog", "Take back “Robot states, SQUAT hardness 4 → 3, and 4 more”?").await;
     browser.says("dialog", "would change.").await;
     browser.press("dialog", "Keep").await;
     assert_eq!(site.sqlite3("SELECT count(*) FROM laid"), ["1"], "nothing is taken back yet");
