@@ -19,7 +19,8 @@ pub struct Author {
 }
 
 /// An edit that was made.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, utoipa::ToSchema)]
+#[schema(as = HistoryEntry)]
 pub struct Edit {
     /// Its number, ascending in time.
     pub id: i64,
@@ -36,8 +37,10 @@ pub struct Edit {
     /// The column; `None` where a whole row came or went.
     pub column: Option<String>,
     /// The value before, or the row that went, as JSON.
+    #[schema(value_type = Value)]
     pub old: Cell,
     /// The value after, or the row that came, as JSON.
+    #[schema(value_type = Value)]
     pub new: Cell,
     /// The edit that took this one back.
     pub undone: Option<i64>,

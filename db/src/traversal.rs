@@ -7,7 +7,7 @@ use crate::error::Result;
 use crate::transaction::Tx;
 
 /// Metres that were driven in a state, and what was measured.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, utoipa::ToSchema)]
 pub struct Traversal {
     /// Its number; 0 where it is not kept yet.
     pub id: i64,

@@ -8,7 +8,7 @@ use crate::error::Result;
 use crate::transaction::Tx;
 
 /// A cell of a named tuning.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, utoipa::ToSchema)]
 pub struct TuningCell {
     /// The tuning.
     pub tuning: String,
@@ -19,6 +19,7 @@ pub struct TuningCell {
     /// The column.
     pub column: String,
     /// The value that counts while the tuning is on.
+    #[schema(value_type = Value)]
     pub value: Cell,
 }
 

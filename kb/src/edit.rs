@@ -77,18 +77,21 @@ pub enum Edit {
     Together(Vec<Edit>),
 }
 
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, utoipa::ToSchema)]
 pub struct Done {
     pub id: i64,
     pub key: String,
     /// The value, or the row, of before.
+    #[schema(value_type = Value)]
     pub old: Cell,
     /// The value, or the row, of now.
+    #[schema(value_type = Value)]
     pub new: Cell,
     /// Entries of the history that were taken back with it.
     pub with: usize,
     /// What each of several edits did that were made together, this one being the first of them.
     #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[schema(no_recursion)]
     pub parts: Vec<Done>,
 }
 

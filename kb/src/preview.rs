@@ -51,7 +51,6 @@ pub struct Preview {
     /// Doors with another hardness, action or passability.
     pub doors: Changed<DoorChange>,
     /// What rules would say otherwise of other things than rooms and doors, on a site without a map.
-    #[schema(value_type = Vec<Object>)]
     pub conclusions: Vec<Concluded>,
     /// What would be worth a look and is not now, in sentences: of cells that name nothing, of places at which no robot fits, of
     /// what no rule speaks of.
@@ -63,10 +62,8 @@ pub struct Preview {
     /// What would become of the rules, where edits are of their files.
     pub rules: Option<RulesTried>,
     /// The route that was asked for, with the edits.
-    #[schema(value_type = Option<Object>)]
     pub route: Option<Answer>,
     /// The same without them.
-    #[schema(value_type = Option<Object>)]
     pub before: Option<Answer>,
 }
 

@@ -328,16 +328,18 @@ pub struct Remeasured {
 }
 
 /// A value that rules conclude otherwise than before.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, utoipa::ToSchema)]
 pub struct Concluded {
     /// The class in small letters, and the key.
     pub what: String,
     pub property: String,
     /// `null`: nothing was concluded.
     #[serde(serialize_with = "as_concluded")]
+    #[schema(value_type = Value)]
     pub old: Cell,
     /// `null`: nothing is concluded any more.
     #[serde(serialize_with = "as_concluded")]
+    #[schema(value_type = Value)]
     pub new: Cell,
 }
 

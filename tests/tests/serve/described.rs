@@ -5,7 +5,7 @@ use std::fs;
 
 use adit::Code;
 use adit_tests::{Ran, adit, repository};
-use serde_json::Value;
+use serde_json::{Value, json};
 
 use super::served;
 
@@ -51,6 +51,82 @@ fn every_route_says_what_it_is_for_what_it_takes_and_what_it_gives() {
             route.split(' ').nth(1).unwrap().split('{').next().unwrap().trim_end_matches('/').to_owned();
         assert!(manual.contains(&path), "service.md does not name {route}");
     }
+}
+
+/// What of an answer its schema does not have.
+fn undescribed(schemas: &Value, (schema, value): (&Value, &Value), at: &str, found: &mut BTreeSet<String>) {
+    let named = schema["$ref"].as_str().and_then(|name| name.rsplit('/').next());
+    let schema = named.map_or(schema, |name| &schemas[name]);
+    if let Some(one_of) = schema["oneOf"].as_array().or_else(|| schema["anyOf"].as_array()) {
+        let each = one_of.iter().map(|one| {
+            let mut found = BTreeSet::new();
+            undescribed(schemas, (one, value), at, &mut found);
+            found
+        });
+        found.extend(each.min_by_key(BTreeSet::len).unwrap_or_default());
+        return;
+    }
+    match value {
+        Value::Object(members) => {
+            for (name, member) in members {
+                let own = &schema["properties"][name];
+                let own = if own.is_null() { &schema["additionalProperties"] } else { own };
+                if own.is_null() {
+                    // what may be any value says nothing of it, and is described so
+                    let is_any = schema.as_object().is_some_and(|schema| !schema.contains_key("type"));
+                    found.extend((!is_any).then(|| format!("{at}.{name}")));
+                } else {
+                    undescribed(schemas, (own, member), &format!("{at}.{name}"), found);
+                }
+            }
+        }
+        Value::Array(items) => {
+            for item in items {
+                undescribed(schemas, (&schema["items"], item), at, found);
+            }
+        }
+        _ => {}
+    }
+}
+
+#[test]
+fn answers_have_what_the_description_says_and_no_more() {
+    let (_site, service) = served("clinic");
+    let close = json!({"edit": {"kind": "close", "what": "ward 12", "until": "2h"}, "why": "a spill"});
+    let tuning = json!({"edit": {"kind": "set_in_tuning", "tuning": "night", "table": "robots", "key": "robot/SQUAT",
+                                 "column": "hardness", "value": 9}});
+    let driven = json!({"traversals": [{"robot": "robot", "state": "STAND", "distance": 3.0, "measured": 2.0}],
+                        "measure": "seconds"});
+    let set =
+        json!({"kind": "set", "table": "robots", "key": "robot/SQUAT", "column": "hardness", "value": 3});
+    let preview = json!({"edits": [set], "start": "dock", "goal": "ward 9"});
+    let asked = [
+        ("post", "/api/edits", Some(close)),
+        ("post", "/api/edits", Some(tuning)),
+        ("post", "/api/traversals", Some(driven)),
+        ("post", "/api/preview", Some(preview)),
+        ("get", "/api/site", None),
+        ("get", "/api/tables", None),
+        ("get", "/api/tunings", None),
+        ("get", "/api/facts", None),
+        ("get", "/api/history", None),
+        ("get", "/api/traversals", None),
+        ("get", "/api/route?start=dock&goal=ward%209", None),
+        ("get", "/api/why?start=dock&goal=ward%209", None),
+        ("get", "/api/firm?start=dock&goal=ward%209", None),
+    ];
+    let (_, description) = service.ask("GET", "/api/openapi.json", None);
+    let mut found = BTreeSet::new();
+    for (method, question, body) in asked {
+        let (status, answer) = service.ask(&method.to_uppercase(), question, body.as_ref());
+        assert_eq!(status, 200, "{question}: {answer:#}");
+        let path = question.split('?').next().unwrap();
+        let content = &description["paths"][path][method]["responses"]["200"]["content"];
+        let schema = &content["application/json"]["schema"];
+        assert!(!schema.is_null(), "{path}");
+        undescribed(&description["components"]["schemas"], (schema, &answer), path, &mut found);
+    }
+    assert!(found.is_empty(), "{found:#?}");
 }
 
 #[test]

@@ -344,7 +344,6 @@ pub struct EditBody {
 
 #[derive(Debug, Serialize, ToSchema)]
 pub struct Edited {
-    #[schema(value_type = Object)]
     pub done: Option<Done>,
     /// Number of the knowledge base's state from now on.
     pub generation: u64,

@@ -37,7 +37,6 @@ pub async fn firm(site: Site, Asked(way): Asked<Way>) -> Answered<Json<Firm>> {
 #[derive(Serialize, ToSchema)]
 pub struct TraversalsAnswer {
     /// In the order in which they were added.
-    #[schema(value_type = Vec<Object>)]
     traversals: Vec<Traversal>,
 }
 

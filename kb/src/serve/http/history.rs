@@ -21,7 +21,6 @@ pub struct Part {
 #[derive(Serialize, ToSchema)]
 pub struct HistoryAnswer {
     generation: u64,
-    #[schema(value_type = Vec<Object>)]
     edits: Vec<adit_db::history::Edit>,
 }
 

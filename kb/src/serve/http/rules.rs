@@ -283,7 +283,7 @@ pub async fn classes(site: Site) -> Answered<Json<ClassesAnswer>> {
 
 #[derive(Debug, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
-pub struct TablesBody {
+pub struct DecisionTablesBody {
     /// The file, as the list of rules calls it.
     file: String,
     /// A text in place of what is saved; it takes the role `rules`.
@@ -292,7 +292,7 @@ pub struct TablesBody {
 }
 
 #[derive(Serialize, ToSchema)]
-pub struct TablesAnswer {
+pub struct DecisionTablesAnswer {
     /// In the order of the file.
     #[schema(value_type = Vec<Object>)]
     tables: Vec<Grid>,
@@ -300,18 +300,18 @@ pub struct TablesAnswer {
 
 /// The decision tables of a rule file as people read them, with gaps, overlaps and rows that are never reached. A file that does
 /// not read has none.
-#[utoipa::path(post, path = "/api/rules/tables", tag = "rules", request_body = TablesBody,
-    responses((status = 200, body = TablesAnswer)))]
+#[utoipa::path(post, path = "/api/rules/tables", tag = "rules", request_body = DecisionTablesBody,
+    responses((status = 200, body = DecisionTablesAnswer)))]
 pub async fn tables(
     site: Site,
     caller: Caller,
-    Body(body): Body<TablesBody>,
-) -> Answered<Json<TablesAnswer>> {
+    Body(body): Body<DecisionTablesBody>,
+) -> Answered<Json<DecisionTablesAnswer>> {
     if body.text.is_some() {
         require(&caller, Role::Rules)?;
     }
     let view = site.view.load().view.clone();
-    let TablesBody { file, text } = body;
+    let DecisionTablesBody { file, text } = body;
     let saved = |file: &str| -> Answered<Option<String>> {
         let found = read(&view)?.files.into_iter().find(|of| of.file == file);
         Ok(found.map(|of| of.text))
@@ -320,7 +320,7 @@ pub async fn tables(
         return Err(Fault::new(Code::ServicePath, format!("no rule file is called `{file}`")));
     };
     let tables = site.at_length(move || Ok(Grid::of(&SourceFile::new(file, text))));
-    Ok(Json(TablesAnswer { tables: tables.await? }))
+    Ok(Json(DecisionTablesAnswer { tables: tables.await? }))
 }
 
 #[derive(Deserialize)]

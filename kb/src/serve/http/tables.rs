@@ -239,7 +239,6 @@ struct TuningOf {
     tuning: String,
     /// Whether it counts now.
     on: bool,
-    #[schema(value_type = Vec<Object>)]
     cells: Vec<adit_db::tuning::TuningCell>,
 }
 
