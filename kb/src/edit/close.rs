@@ -24,12 +24,10 @@ use crate::knowledge::{KnowledgeBase, LAYOUT};
 use crate::plan::course::numbered;
 use crate::words::number::number;
 use crate::words::suggest::{did_you_mean, listed};
+use lanes::NEAR_M;
 
 /// What a channel is called, before its number.
 const CHANNEL: &str = "channel";
-
-/// How far a doorway may be from where a robot was blocked, metres.
-const NEAR_M: f64 = 1.5;
 
 /// Something that is closed, as it is said.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -3,6 +3,7 @@
 pub mod attach;
 pub mod closing;
 pub mod kinds;
+mod unfit;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::hash::{Hash, Hasher};
@@ -20,7 +21,6 @@ use crate::words::number::number;
 use crate::words::suggest::did_you_mean;
 pub use attach::Attached;
 pub use closing::{Closable, Line, Whom};
-use kinds::Unfit;
 
 /// Classes and facts that people, robots and tables tell.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -62,6 +62,13 @@ pub struct Fact {
     pub value: Value,
     /// Whether it is kept: what an errand tells is taken back again.
     pub is_kept: bool,
+}
+
+/// A fact whose value its property cannot hold, and what it holds. Only another program can write such a one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Unfit {
+    pub fact: Fact,
+    pub holds: Type,
 }
 
 /// Who tells what is taken back again. No account is called so; one that services run under may be `nobody`.

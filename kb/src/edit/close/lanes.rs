@@ -5,7 +5,6 @@ use std::collections::HashMap;
 use adit_db::{Cell, Tx};
 use adit_planners::geometry::{Point, Segment};
 
-use super::NEAR_M;
 use crate::error::{Code, Error, Result};
 
 /// A kind of things: the word before its key, its class, its table, the column of the key.
@@ -22,6 +21,9 @@ const KINDS: [Kind; 4] = [
     Kind { word: "lift", class: "LIFTS", table: "lifts", key: "lift" },
     Kind { word: "node", class: "NODES", table: "nodes", key: "node" },
 ];
+
+/// How far what is closed may be from where a robot was blocked, metres.
+pub(super) const NEAR_M: f64 = 1.5;
 
 /// A vehicle that is blocked on a lane looks along it, give or take so many degrees.
 const AHEAD_DEGREES: f64 = 60.0;

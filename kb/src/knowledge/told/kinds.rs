@@ -3,7 +3,6 @@
 use adit_engine::{RuleBase, Schema, Type};
 
 use super::closing::lists_robots;
-use super::{Fact, Told};
 use crate::words::suggest::did_you_mean;
 
 /// What values of these properties must be, whatever rules say.
@@ -49,39 +48,4 @@ pub fn unread(
     }
     let message = format!("no rule reads {class}.{property}, and nothing gives it");
     Some((message, did_you_mean(property, known.iter().copied())))
-}
-
-/// A fact whose value its property cannot hold, and what it holds. Only another program can write such a one.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Unfit {
-    pub fact: Fact,
-    pub holds: Type,
-}
-
-impl Unfit {
-    /// That it counts for nothing, and why.
-    pub fn said(&self) -> String {
-        let Fact { class, property, .. } = &self.fact;
-        let (holds, is) = (self.holds.plural(), self.fact.kind().plural());
-        format!(
-            "{} counts for nothing: {class}.{property} holds {holds}, and its value is one of {is}",
-            self.fact.name()
-        )
-    }
-}
-
-impl Told {
-    /// Sets aside facts with values that their properties cannot hold, as far as `schema` says.
-    pub fn set_unfit_aside(&mut self, schema: &Schema) {
-        let holds = |fact: &Fact| {
-            fixed(&fact.class, &fact.property).or_else(|| schema.kind(&fact.class, &fact.property))
-        };
-        let facts = std::mem::take(&mut self.facts);
-        for fact in facts {
-            match holds(&fact).filter(|kind| *kind != fact.kind()) {
-                Some(holds) => self.unfit.push(Unfit { fact, holds }),
-                None => self.facts.push(fact),
-            }
-        }
-    }
 }
