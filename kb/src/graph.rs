@@ -35,6 +35,7 @@ use layers::Layer;
 
 use crate::error;
 use crate::knowledge::told::Whom;
+use crate::words::point::point;
 use crate::words::suggest::{did_you_mean, listed};
 
 pub use building::{Building, why_one_way};
@@ -351,7 +352,7 @@ impl SiteGraph {
         if let Some(index) = self.index.room_by_name.get(name) {
             return Some(End::Room(*index));
         }
-        if let Some(point) = point_of(name) {
+        if let Some(point) = point(name) {
             return Some(End::Point(point));
         }
         if let Some(space) = self.building.space_named(name) {
@@ -419,12 +420,6 @@ impl ops::Index<DoorIndex> for SiteGraph {
 }
 
 /// The point that `x,y` is.
-fn point_of(text: &str) -> Option<Point> {
-    let (x, y) = text.split_once(',')?;
-    let (x, y): (f64, f64) = (x.trim().parse().ok()?, y.trim().parse().ok()?);
-    (x.is_finite() && y.is_finite()).then(|| Point::new(x, y))
-}
-
 /// Whether a room can be walked in: its hardness is known and it is passable, as with doors.
 pub fn is_weighed(room: &Room) -> bool {
     walking_in(room) != Walking::Unknown

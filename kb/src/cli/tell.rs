@@ -14,6 +14,7 @@ use crate::graph::Building;
 use crate::knowledge::KnowledgeBase;
 use crate::words::cells::{object, text};
 use crate::words::number::number;
+use crate::words::point::point;
 
 #[derive(Args, Debug)]
 pub struct TellArgs {
@@ -106,15 +107,14 @@ fn list(knowledge: &KnowledgeBase, as_json: bool) -> Result<()> {
         let name = |key: &String| building.called(&class, key).unwrap_or_else(|| key.clone());
         let about: Vec<String> = about.iter().map(name).collect();
         let about = if about.is_empty() { at("state", row) } else { about.join(", ") };
-        let what = format!("{class} {} {property} = {value}", point(&object));
+        let what = format!("{class} {} {property} = {value}", shown(&object));
         vec![at("id", row), what, about, at("until", row), at("who", row), at("why", row), at("at", row)]
     };
     table(&["fact", "what", "about", "until", "who", "why", "at"], (0..rows).map(cells));
     Ok(())
 }
 
-/// A point as people write it; any other name as it is.
-fn point(object: &str) -> String {
-    let parts = object.split_once(',').and_then(|(x, y)| Some((x.parse().ok()?, y.parse().ok()?)));
-    parts.map_or_else(|| object.to_owned(), |(x, y)| format!("{},{}", number(x), number(y)))
+/// A point to the digits that people read; any other name as it is.
+fn shown(object: &str) -> String {
+    point(object).map_or_else(|| object.to_owned(), |at| format!("{},{}", number(at.x), number(at.y)))
 }

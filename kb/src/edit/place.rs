@@ -7,6 +7,7 @@ use crate::error::{Code, Error, Result};
 use crate::graph::Building;
 use crate::knowledge::told::Object;
 use crate::words::number::number;
+use crate::words::point::point;
 
 /// A robot that is blocked stands at most so far before a doorway, or in it, metres.
 const BEFORE_M: f64 = 1.75;
@@ -29,15 +30,13 @@ const LEAST_M: f64 = 0.2;
 
 /// A point, with a heading in degrees where one is said: `x,y` or `x,y@degrees`.
 pub(crate) fn split(text: &str) -> Option<(Point, Option<f64>)> {
-    let (point, heading) = match text.split_once('@') {
-        Some((point, heading)) => {
-            (point, Some(heading.trim().parse().ok().filter(|degrees: &f64| degrees.is_finite())?))
+    let (at, heading) = match text.split_once('@') {
+        Some((at, heading)) => {
+            (at, Some(heading.trim().parse().ok().filter(|degrees: &f64| degrees.is_finite())?))
         }
         None => (text, None),
     };
-    let (x, y) = point.split_once(',')?;
-    let (x, y): (f64, f64) = (x.trim().parse().ok()?, y.trim().parse().ok()?);
-    (x.is_finite() && y.is_finite()).then(|| (Point::new(x, y), heading))
+    point(at).map(|at| (at, heading))
 }
 
 /// The doorway, or else the cross-section, at which a robot was blocked that stood at a point and was heading somewhere; the

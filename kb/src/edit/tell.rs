@@ -18,6 +18,7 @@ use crate::knowledge::told::kinds::{fixed, unread};
 use crate::knowledge::told::{Object, Told};
 use crate::site::clock::stored;
 use crate::words::number::number;
+use crate::words::point::point;
 use crate::words::suggest::did_you_mean;
 
 /// A fact as it is said.
@@ -280,12 +281,6 @@ fn concluded(tx: &mut Tx<'_>, class: &str, property: &str) -> Result<Option<Type
         Cell::Integer(_) => Some(Type::Truth),
         Cell::Null | Cell::Blob(_) => None,
     }))
-}
-
-fn point(text: &str) -> Option<Point> {
-    let (x, y) = text.split_once(',')?;
-    let (x, y): (f64, f64) = (x.trim().parse().ok()?, y.trim().parse().ok()?);
-    (x.is_finite() && y.is_finite()).then(|| Point::new(x, y))
 }
 
 fn nearest(at: Point, [x0, y0, x1, y1]: [f64; 4]) -> Point {

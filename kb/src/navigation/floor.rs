@@ -6,8 +6,8 @@ use adit_planners::navigation::Building;
 
 use super::told::Told;
 use crate::error::{Code, Error, Result};
-use crate::plan::course;
 use crate::site::driving::Driving;
+use crate::words::point::point;
 use crate::words::suggest::did_you_mean;
 
 /// A floor plan, the network of places for a robot, and what the robot goes by.
@@ -41,7 +41,7 @@ impl Floor {
         if let Some(place) = self.plan.places().iter().find(|place| place.name == text) {
             return Ok(place.at);
         }
-        course::point(text).ok_or_else(|| {
+        point(text).ok_or_else(|| {
             let message = format!("`{text}` is no place of the plan, and no point `x,y`");
             let names = self.names();
             let help = did_you_mean(text, names.iter().copied());

@@ -16,8 +16,9 @@ use super::stretches::{OfWay, rows, sorted};
 use crate::draw::render_floor;
 use crate::error::Result;
 use crate::plan::Said;
-use crate::plan::course::{Found, NoEnd, Pathfinder, no_through, numbered, point};
+use crate::plan::course::{Found, NoEnd, Pathfinder, no_through, numbered};
 use crate::words::number::counted;
+use crate::words::point::point;
 use crate::words::suggest::did_you_mean;
 
 /// A robot on the plan.

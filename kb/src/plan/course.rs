@@ -12,7 +12,6 @@ use adit_engine::{
     Class as Objects, Consultation, KnowledgeBase as Inference, RuleBase, Schema, Type, Value,
 };
 use adit_planners::facts::Facts;
-use adit_planners::geometry::Point;
 use adit_planners::planner::Planner;
 
 use super::consult::Class;
@@ -262,14 +261,5 @@ pub fn refuse_gaps(objects: ObjectsOf<'_>, key: &str) -> Result<()> {
             let help = "close one instead of removing it: `closed` of its row is true".to_owned();
             Err(Error::said(Code::CourseTable, message, Some(help)))
         }
-    }
-}
-
-/// A point as people write it: `x,y`.
-pub fn point(text: &str) -> Option<Point> {
-    let numbers: Option<Vec<f64>> = text.split(',').map(|part| part.trim().parse().ok()).collect();
-    match numbers.as_deref() {
-        Some([x, y]) if x.is_finite() && y.is_finite() => Some(Point::new(*x, *y)),
-        _ => None,
     }
 }

@@ -16,7 +16,7 @@ use adit_planners::planner::Planner;
 use super::consult::Class;
 use super::corridor::{Corridor, Driven};
 use super::course::{
-    Asked as Rules, Course, Found, NoEnd, Pathfinder, no_map, no_through, numbered, point, refuse_gaps,
+    Asked as Rules, Course, Found, NoEnd, Pathfinder, no_map, no_through, numbered, refuse_gaps,
 };
 use super::gap::{self, Asked, Wanted};
 use super::rules::Kind;
@@ -26,6 +26,7 @@ use crate::draw::{ChannelPanel, render_channels};
 use crate::error::Result;
 use crate::site::tables::TableFile;
 use crate::words::number::counted;
+use crate::words::point::point;
 use crate::words::suggest::did_you_mean;
 
 const CHANNELS: [(&str, &str); 6] = [

@@ -4,6 +4,7 @@ use adit_db::tree::{End as EndRow, EndKind};
 
 use crate::error::{Code, Error, Result};
 use crate::graph::{SiteGraph, place_node};
+use crate::words::point::point;
 
 /// Up to so many rooms of the paper's modes every place and room is a start, unless the site says otherwise. Above, and
 /// where rooms are by state, places are: a tree by state takes tens of milliseconds, and who asks names a place or a
@@ -21,8 +22,7 @@ pub(super) fn keeps_rooms(graph: &SiteGraph) -> bool {
 pub fn ends(graph: &SiteGraph) -> Result<Vec<EndRow>> {
     let mut ends = Vec::with_capacity(graph.rooms.len() + graph.places.len());
     for (index, place) in graph.places.iter().enumerate() {
-        let is_number = |text: &str| text.trim().parse::<f64>().is_ok();
-        if place.place.split_once(',').is_some_and(|(x, y)| is_number(x) && is_number(y)) {
+        if point(&place.place).is_some() {
             return Err(Error::said(
                 Code::SitePlaceNamedLikeAPoint,
                 format!("place `{}` is named like a point, so it would mean two things", place.place),

@@ -18,8 +18,9 @@ use super::travel::{Carrying, Travel, length_m};
 use crate::draw::render_lanes;
 use crate::error::Result;
 use crate::plan::Said;
-use crate::plan::course::{Found, NoEnd, Pathfinder, no_through, point};
+use crate::plan::course::{Found, NoEnd, Pathfinder, no_through};
 use crate::words::number::{counted, number};
+use crate::words::point::point;
 use crate::words::suggest::did_you_mean;
 
 /// Metres; points beyond it are slips, as they are in files.
