@@ -56,6 +56,7 @@ use crate::site::tables::{self as files, TableFile};
 use crate::site::{Rooms, Site};
 use crate::words::number::number;
 use crate::words::progress::Progress;
+use crate::words::suggest::did_you_mean;
 
 /// How long the tests of rules may take that are only tried: somebody waits at the page, and where rules are saved
 /// everybody's edits wait.
@@ -161,12 +162,38 @@ pub struct KnowledgeBase {
     /// What stands in place of the user's own rule files.
     drafts: Arc<Drafts>,
     /// Who takes the tables from their files again.
-    pub(crate) reseed: Option<Author>,
+    pub(crate) reseed: Option<Reseed>,
     at: Option<Timestamp>,
     pub(crate) dial: Dial,
     pub(crate) within: Option<f64>,
     /// The file and the folder of a map that is a site alone.
     alone: Option<(PathBuf, Arc<TempDir>)>,
+}
+
+/// Tables that a build takes from their files again.
+#[derive(Clone, Debug)]
+pub(crate) struct Reseed {
+    /// Whose edit that is.
+    pub author: Author,
+    /// Which; all where none is named.
+    tables: Vec<String>,
+}
+
+impl Reseed {
+    pub fn takes(&self, table: &str) -> bool {
+        self.tables.is_empty() || self.tables.iter().any(|name| name.eq_ignore_ascii_case(table))
+    }
+
+    /// Refuses a table that no file fills.
+    pub fn check(&self, filled: &[&str]) -> Result<()> {
+        let unknown =
+            self.tables.iter().find(|name| !filled.iter().any(|known| known.eq_ignore_ascii_case(name)));
+        let Some(unknown) = unknown else { return Ok(()) };
+        let help = did_you_mean(unknown, filled.iter().copied());
+        let help = help.unwrap_or_else(|| format!("files fill {}", filled.join(", ")));
+        let message = format!("no file of the site fills a table `{unknown}`");
+        Err(Error::said(Code::EditUnknownTable, message, Some(help)))
+    }
 }
 
 impl KnowledgeBase {
@@ -179,7 +206,7 @@ impl KnowledgeBase {
         let folder = Arc::new(alone::folder(path)?);
         let knowledge = Self::of_folder(folder.path())?;
         // the file is all that can be edited
-        Ok(Self { alone: Some((path.to_owned(), folder)), ..knowledge.reseeding(Self::nobody()) })
+        Ok(Self { alone: Some((path.to_owned(), folder)), ..knowledge.reseeding(Self::nobody(), &[]) })
     }
 
     fn of_folder(folder: &Path) -> Result<Self> {
@@ -400,10 +427,11 @@ impl KnowledgeBase {
         self.at.is_some()
     }
 
-    /// The next build takes the tables from their files again; what it replaces is in the history, as an edit of this author.
+    /// The next build takes tables from their files again, those that are named or else all; what it replaces is in the history,
+    /// as an edit of this author.
     #[must_use]
-    pub fn reseeding(mut self, author: Author) -> Self {
-        self.reseed = Some(author);
+    pub fn reseeding(mut self, author: Author, tables: &[String]) -> Self {
+        self.reseed = Some(Reseed { author, tables: tables.to_vec() });
         self
     }
 

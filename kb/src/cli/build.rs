@@ -16,9 +16,9 @@ use crate::words::progress::{Silent, Spinner};
 pub struct BuildArgs {
     #[command(flatten)]
     pub site: SiteArgs,
-    /// Take the tables from their files again, instead of the database's
-    #[arg(long)]
-    pub reseed: bool,
+    /// Take tables from their files again, instead of the database's: all of them, or these alone
+    #[arg(long, value_name = "TABLES", num_args = 0.., value_delimiter = ',', require_equals = true)]
+    pub reseed: Option<Vec<String>>,
     /// As if it were this time: `2026-11-21T18:00`, `18:00`, `2h`
     #[arg(long, value_name = "TIME")]
     pub at: Option<String>,
@@ -44,10 +44,11 @@ const NOTHING_KEPT: &str = "no routes are kept: `[[place]]` in site.toml names t
 
 pub fn run(args: &BuildArgs) -> Result<()> {
     let knowledge = unbuilt(&args.site)?.at(args.at.as_deref())?;
-    let knowledge = if args.reseed && !knowledge.is_map_alone() {
-        knowledge.reseeding(author("tables as their files have them"))
-    } else {
-        knowledge
+    let knowledge = match &args.reseed {
+        Some(tables) if !knowledge.is_map_alone() => {
+            knowledge.reseeding(author("tables as their files have them"), tables)
+        }
+        _ => knowledge,
     };
     let report = {
         let spinner = Spinner::new();

@@ -59,7 +59,8 @@ impl KnowledgeBase {
         inputs: &Arc<Inputs>,
         progress: &dyn Progress,
     ) -> Result<(Memory, Report)> {
-        let (site, again) = (self.site(), self.reseed.is_some());
+        let site = self.site();
+        let again = |table: &str| self.reseed.as_ref().is_some_and(|reseed| reseed.takes(table));
         let seed = if site.has_rooms() { Some(RobotFile::read(&site.robots)?) } else { None };
         let mut tables = self.tables_of_map();
         tables.extend(tables::read(&site.tables())?);
@@ -68,20 +69,30 @@ impl KnowledgeBase {
             self.refuse_anothers(tx)?;
             let own = tables.iter().map(|table| table.name.as_str());
             let seeded = ["changes", "loads", "robots", "places"].into_iter().chain(own).collect::<Vec<_>>();
+            if let Some(reseed) = &self.reseed {
+                let of_robots = seed.iter().flat_map(|_| ["robots", "changes", "loads"]);
+                let of_map = (!loads.is_empty()).then_some("loads").into_iter();
+                let of_map = of_map.chain(places.is_some().then_some("places"));
+                let own = tables.iter().map(|table| table.name.as_str());
+                reseed.check(&of_robots.chain(of_map).chain(own).collect::<Vec<_>>())?;
+            }
             // a map that is a site alone has nothing that anybody edited
             let is_built = tx.site_value("generation")?.is_some();
             let replacing = self.reseed.as_ref().filter(|_| is_built && !self.is_map_alone());
-            let held =
-                replacing.map(|author| Held::of(tx, &seeded).map(|held| (held, author))).transpose()?;
-            let notes = seed.map(|seed| seed.seed_tables(tx, &site.robots, again)).transpose()?;
+            let held = replacing
+                .map(|reseed| Held::of(tx, &seeded).map(|held| (held, &reseed.author)))
+                .transpose()?;
+            // states, changes and loads stand in one file
+            let states = ["robots", "changes", "loads"].into_iter().any(again);
+            let notes = seed.map(|seed| seed.seed_tables(tx, &site.robots, states)).transpose()?;
             let mut notes = notes.unwrap_or_default();
             for table in &tables {
-                notes.extend(table.seed(tx, again)?);
+                notes.extend(table.seed(tx, again(&table.name))?);
             }
-            notes.extend(seed_loads(tx, &loads, again)?);
+            notes.extend(seed_loads(tx, &loads, again("loads"))?);
             notes.extend(self.course().iter().flat_map(|course| course.notes()));
             if let Some(places) = &places {
-                notes.extend(seed_places(tx, places, again)?);
+                notes.extend(seed_places(tx, places, again("places"))?);
             }
             let replaced = held.map(|(held, author)| held.record(tx, author)).transpose()?;
             let (memory, mut report) = Memory::build(tx, self, inputs, progress)?;

@@ -138,7 +138,7 @@ impl TableFile {
             let file = self.path.display();
             return Ok((!self.is_same(&kept)).then(|| {
                 format!(
-                    "{file} differs from the table {}; the database counts (--reseed takes the file)",
+                    "{file} differs from the table {0}; the database counts (--reseed={0} takes the file)",
                     self.name
                 )
             }));

@@ -320,3 +320,22 @@ fn a_table_is_read_as_spreadsheet_programs_of_many_countries_write_it() {
     let said = ["floors.csv:3:1", "mark them: floor*, hard*"];
     site.adit("table", &["floors", "--from", &at(&site, "floors.csv")]).expecting(2).complains(&said);
 }
+
+#[test]
+fn one_table_is_taken_from_its_file_again_and_what_the_others_hold_stays() {
+    let site = TestSite::example("shop").built();
+    site.adit("tune", &["products", "cup", "price", "7"]).expect_status(0);
+    site.adit("tune", &["zones", "UK/1", "fee", "70"]).expect_status(0);
+    let cells = || {
+        site.sqlite3("SELECT price FROM products WHERE product = 'cup' UNION ALL SELECT max(fee) FROM zones")
+    };
+    assert_eq!(cells(), ["7.0", "70"]);
+    site.adit("build", &["--reseed=zone"])
+        .expecting(2)
+        .complains(&["fills a table `zone`", "did you mean `zones`?"]);
+    site.adit("build", &["--reseed=zones"]).expecting(0).complains(&["(--reseed=products takes the file)"]);
+    assert_eq!(cells()[0], "7.0");
+    assert_ne!(cells()[1], "70");
+    site.adit("undo", &[]).expect_status(0);
+    assert_eq!(cells(), ["7.0", "70"]);
+}
