@@ -13,8 +13,12 @@ pub async fn copy(connection: &mut SqliteConnection, to: &Path) -> Result<()> {
         return Err(Error::Exists(to.to_owned()));
     }
     let name = to.to_str().ok_or_else(|| Error::CannotOpen(to.to_owned()))?;
-    crate::dynamic::execute(connection, "VACUUM INTO ?".to_owned(), &[Cell::from(name)]).await?;
-    Ok(())
+    let copied = crate::dynamic::execute(connection, "VACUUM INTO ?".to_owned(), &[Cell::from(name)]).await;
+    if copied.is_err() {
+        // half a copy is none, and stands in the way of a whole one
+        std::fs::remove_file(to).ok();
+    }
+    copied.map(drop)
 }
 
 /// Copies the database beside itself before it is migrated. Under the copy's name there is a whole one, whenever the power goes.

@@ -229,18 +229,18 @@ impl Edit {
 impl Edit {
     /// Words about what an edit leaves as people may not expect it, once all that follows is written: a cell that does not count, a
     /// state whose changes no row prices, what is closed for longer, or passed all the same, and what is shut all the same.
-    pub(crate) fn remarks(&self, tx: &mut Tx<'_>, done: &Done) -> Result<Vec<String>> {
+    pub(crate) fn remarks(&self, tx: &mut Tx<'_>, site: &KnowledgeBase, done: &Done) -> Result<Vec<String>> {
         if let Self::Together(edits) = self {
             let mut all = Vec::new();
             for (edit, done) in edits.iter().zip(&done.parts) {
-                all.extend(edit.remarks(tx, done)?);
+                all.extend(edit.remarks(tx, site, done)?);
             }
             return Ok(all);
         }
-        Ok(self.remark(tx, done)?.into_iter().collect())
+        Ok(self.remark(tx, site, done)?.into_iter().collect())
     }
 
-    fn remark(&self, tx: &mut Tx<'_>, done: &Done) -> Result<Option<String>> {
+    fn remark(&self, tx: &mut Tx<'_>, site: &KnowledgeBase, done: &Done) -> Result<Option<String>> {
         match self {
             Self::Add(table, ..) if table == "robots" => unpriced(tx, Some(&done.key)),
             Self::Table(table, ..) if table == "robots" => unpriced(tx, None),
@@ -255,7 +255,10 @@ impl Edit {
                     (place, word) => place.or(word),
                 })
             }
-            Self::Open(what) => close::shut_all_the_same(tx, what),
+            Self::Open(what) => match close::shut_all_the_same(tx, what)? {
+                None => close::whatever_the_hours(tx, site, what, &done.key),
+                word => Ok(word),
+            },
             _ => self.overridden(tx, done),
         }
     }

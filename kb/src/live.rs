@@ -223,7 +223,7 @@ impl Live {
             make_tables(tx, &inputs.rules)?;
             let done = edit.apply(tx, &drafted, &inputs.rules, author)?;
             let (memory, report) = Memory::build(tx, &drafted, &inputs, &Silent)?;
-            let remarks = edit.remarks(tx, &done)?;
+            let remarks = edit.remarks(tx, &drafted, &done)?;
             let journal = Journal::begin(tx, drafted.database(), &drafted.rule_folder(), since)?;
             Ok((done, memory, (report, remarks), journal))
         });
@@ -265,7 +265,8 @@ impl Live {
             let rules = &memory.state.inputs.rules;
             let done = edit.map(|(edit, author)| edit.apply(tx, site, rules, author)).transpose()?;
             let followed = memory.follow(tx, done.clone(), Promptness::Later, &Silent)?;
-            let remarks = edit.zip(done).map(|((edit, _), done)| edit.remarks(tx, &done)).transpose()?;
+            let remarks =
+                edit.zip(done).map(|((edit, _), done)| edit.remarks(tx, site, &done)).transpose()?;
             Ok(Some((followed, remarks.unwrap_or_default())))
         });
         match followed {

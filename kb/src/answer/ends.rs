@@ -10,7 +10,7 @@ use super::{Answer, Status};
 use crate::error::{Code, Error, Finding, Nearest, Result};
 use crate::graph::End;
 use crate::words::number::number;
-use crate::words::suggest::did_you_mean;
+use crate::words::suggest::{did_you_mean, listed};
 
 /// Start and goals of a question.
 pub(crate) struct Ends {
@@ -113,7 +113,8 @@ impl Basis<'_> {
         let graph = self.graph;
         if graph.rooms.iter().all(|room| state_of(room, robot) != Some(state)) {
             let known = graph.rooms.iter().filter_map(|room| state_of(room, robot)).collect::<BTreeSet<_>>();
-            let help = did_you_mean(state, known.into_iter());
+            let known = || known.iter().copied();
+            let help = did_you_mean(state, known()).or_else(|| listed("states", known()));
             let message = format!("no room of `{robot}` is one of a state `{state}`");
             return Err(Error::said(Code::RouteUnknownState, message, help));
         }

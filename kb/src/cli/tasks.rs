@@ -154,6 +154,9 @@ pub fn run(args: &TasksArgs) -> Result<bool> {
         bar.step();
     }
     drop(bar);
+    if tasks.is_empty() {
+        remark("no task was asked for: name goals, or say how many with --tasks");
+    }
     let written = Instant::now();
     session.settle()?;
     if let Some(last) = tasks.last_mut() {

@@ -4,6 +4,8 @@
 mod lanes;
 mod one_side;
 
+use std::collections::BTreeSet;
+
 use adit_db::Tx;
 use adit_db::edit::Edited;
 use adit_db::history::Author;
@@ -231,6 +233,31 @@ pub(super) fn shut_all_the_same(tx: &mut Tx<'_>, what: &str) -> Result<Option<St
     Ok(witness.map(|witness| format!("{what} stays shut all the same: ask why about {witness:?}")))
 }
 
+/// A word about what has opening hours, and was told to be open whatever they say.
+pub(super) fn whatever_the_hours(
+    tx: &mut Tx<'_>,
+    site: &KnowledgeBase,
+    what: &str,
+    fact: &str,
+) -> Result<Option<String>> {
+    let told = tx.facts_told()?;
+    if !told.iter().any(|row| row.id.to_string() == fact && opens(row)) {
+        return Ok(None);
+    }
+    let mut hours = site.site().hours.clone();
+    hours.extend(tx.hours()?);
+    let building = Building::read(tx)?;
+    let what = what.trim();
+    let door = building.doorway_named(what).map(Building::name);
+    let is_it = |name: &str| name == what || door.as_deref() == Some(name);
+    Ok(hours.iter().any(|of| is_it(&of.name)).then(|| {
+        format!(
+            "{what} is open from now on whatever its opening hours say: `adit tell SITE --retract {fact}`, or undo, gives \
+             it back to them"
+        )
+    }))
+}
+
 /// A room of an area, where none of them is entered.
 fn room_shut_in(tx: &mut Tx<'_>, area: &str) -> Result<Option<String>> {
     let table = tables::kept(tx, "area_rooms")?;
@@ -247,11 +274,11 @@ fn room_shut_in(tx: &mut Tx<'_>, area: &str) -> Result<Option<String>> {
     Ok(rooms.first().filter(|_| is_shut).map(|room| format!("room {}", room.name)))
 }
 
-/// A word about what is closed for longer than the fact says that was told last, since another one closes it, too.
+/// A word about what is closed for longer than the fact says that was told last, or was closed already, since another one closes
+/// it, too.
 pub(super) fn for_longer(tx: &mut Tx<'_>, what: &str, fact: &str) -> Result<Option<String>> {
     let told = tx.facts_told()?;
     let Some(last) = told.iter().find(|other| other.id.to_string() == fact) else { return Ok(None) };
-    let Some(end) = &last.until else { return Ok(None) };
     let closes_it = |other: &&Row| {
         other.property == CLOSED
             && other.value == adit_db::Cell::Integer(1)
@@ -259,6 +286,15 @@ pub(super) fn for_longer(tx: &mut Tx<'_>, what: &str, fact: &str) -> Result<Opti
                 == (&last.class, &last.key, last.at, last.segment)
     };
     let endless = |other: &&Row| (other.until.is_none(), other.until.clone());
+    let Some(end) = &last.until else {
+        let other = told.iter().filter(closes_it).find(|other| other.id != last.id && other.until.is_none());
+        return Ok(other.map(|other| {
+            format!(
+                "{what} was closed already, by fact {}: it stays closed where this one is taken back",
+                other.id
+            )
+        }));
+    };
     let longest = told.iter().filter(closes_it).max_by_key(endless).filter(|other| other.id != last.id);
     Ok(longest.filter(|other| other.until.as_ref().is_none_or(|until| until > end)).map(|other| {
         let until = other.until.as_ref().map_or_else(
@@ -330,9 +366,12 @@ fn named(tx: &mut Tx<'_>, what: &str) -> Result<(&'static str, String)> {
     if let Some(space) = space_about(tx, what, &building)? {
         return Ok(("SPACES", space));
     }
-    let known: Vec<String> = named.names().collect();
+    let known: BTreeSet<String> = named.names().collect();
     let help = did_you_mean(what, known.iter().map(String::as_str));
-    let help = help
+    let is_heading = what.split_once('@').is_some_and(|(at, _)| place::split(at).is_some());
+    let help = is_heading
+        .then(|| "behind the @ stands where the robot was heading, in degrees: x,y@90".to_owned())
+        .or(help)
         .or_else(|| listed("there", known.iter().map(String::as_str)))
         .or_else(|| Some("say a doorway, a space, an area, a named door, or a point as x,y".to_owned()));
     Err(Error::said(

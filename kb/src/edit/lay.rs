@@ -5,13 +5,14 @@ use adit_db::history::Author;
 use adit_db::laid::Laid as Row;
 use adit_db::{Cell, Tx};
 use adit_engine::RuleBase;
+use adit_planners::facts::Column;
 use serde_json::{Map, Value};
 
 use super::place;
 use super::tell::{self, Tell};
 use crate::error::{Code, Error, Result};
 use crate::graph::Building;
-use crate::knowledge::{KnowledgeBase, laid};
+use crate::knowledge::{KnowledgeBase, laid, tables};
 use crate::site::clock::stored;
 use crate::words::suggest::{did_you_mean, listed};
 
@@ -208,7 +209,14 @@ pub(super) fn lift(tx: &mut Tx<'_>, name: &str, author: &Author) -> Result<Edite
     let laid = tx.laid()?;
     if !laid.iter().any(|row| row.name == name) {
         let names = || laid.iter().map(|row| row.name.as_str());
-        let help = did_you_mean(name, names()).or_else(|| listed("laid over it", names()));
+        let is_of_map = match tables::kept(tx, "areas")?.column("area") {
+            Some(Column::Text(areas)) => areas.iter().flatten().any(|area| area == name),
+            _ => false,
+        };
+        let help = is_of_map
+            .then(|| format!("`{name}` stands in the map or in site.toml: edit it there, or `adit close` it"))
+            .or_else(|| did_you_mean(name, names()))
+            .or_else(|| listed("laid over it", names()));
         let message = format!("nothing called `{name}` was laid over the map");
         return Err(Error::said(Code::LaidUnknown, message, help));
     }

@@ -8,6 +8,7 @@ use adit_db::door::Door;
 use adit_db::history::Author;
 use adit_db::room::Room;
 use adit_db::stale::Mark;
+use adit_engine::{Rule, RuleBase};
 
 use super::report::{Concluded, Report, Routes};
 use super::routes::{KeptRoutes, Renewed};
@@ -181,9 +182,18 @@ impl Memory {
         progress: &dyn Progress,
     ) -> Result<(Done, Report)> {
         // an edit may mend what keeps it from being opened, and a build says what is still wrong
-        let opened = Self::open(tx, site, inputs).unwrap_or_default();
+        let mut opened = Self::open(tx, site, inputs).unwrap_or_default();
+        let mut first = None;
         if opened.is_none() {
             site.refuse_anothers(tx)?;
+            let marks = tx.stale_marks()?;
+            if !marks.is_empty() && is_built_by(tx, &inputs.rules)? {
+                // what others did is no part of what this edit changes
+                if let Ok((memory, report)) = Self::build(tx, site, inputs, progress) {
+                    opened = Some(memory);
+                    first = Some((report, marks.iter().any(|mark| mark.table != ROUTES)));
+                }
+            }
         }
         make_tables(tx, &inputs.rules)?;
         let done = edit.apply(tx, site, &inputs.rules, author)?;
@@ -198,6 +208,13 @@ impl Memory {
         let mut report = Report::new(before, weighed.as_ref(), &mut memory.state, (routes, stages));
         (report.conclusions, report.reacted) = (conclusions, reacted);
         report.concluded = memory.kept.derivations().len();
+        if let Some((first, is_by_others)) = first {
+            report.reacted.splice(0..0, first.reacted);
+            let notes: Vec<String> =
+                first.notes.into_iter().filter(|note| !report.notes.contains(note)).collect();
+            report.notes.extend(notes);
+            report.notes.extend(is_by_others.then(|| TAKEN_IN.to_owned()));
+        }
         // nobody waits until all of it is given back
         rayon::spawn(|| drop((memory, graph)));
         Ok((done, report))
@@ -335,6 +352,17 @@ impl Memory {
         self.routes.take_back(self.state.graph());
         Ok(())
     }
+}
+
+/// What others did is taken in before an edit.
+const TAKEN_IN: &str =
+    "tables were edited by others since the last build: that was taken in first, and is not listed here";
+
+/// Whether the last build was by these rules.
+fn is_built_by(tx: &mut Tx<'_>, rules: &RuleBase) -> Result<bool> {
+    let built = tx.rules()?;
+    let is_in = |rule: &Rule| built.iter().any(|of| of.name == rule.name() && of.version == rule.version());
+    Ok(generation::read(tx)? > 0 && built.len() == rules.rules().len() && rules.rules().iter().all(is_in))
 }
 
 /// Rooms, doors, spaces and doorways of the last build.

@@ -135,7 +135,7 @@ impl KnowledgeBase {
             let built = if edit.files(tx)?.is_empty() { tx.rules()? } else { Vec::new() };
             let (done, mut report) = Memory::edit(tx, &site, &inputs, (edit, author), progress)?;
             report.notes.extend(not_built(&built, &inputs.rules, "what follows from them is included"));
-            report.notes.extend(edit.remarks(tx, &done)?);
+            report.notes.extend(edit.remarks(tx, &site, &done)?);
             Ok((done, report))
         };
         if rehearse {

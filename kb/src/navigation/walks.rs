@@ -7,7 +7,7 @@ use adit_db::course::Course as Row;
 use adit_db::place::Place;
 use adit_db::route::{Step, Waypoint};
 use adit_planners::floor_plan::{Network, NoPath, Path, Rule, Spot, Way};
-use adit_planners::geometry::Point;
+use adit_planners::geometry::{Point, Segment};
 use adit_planners::navigation::{Judge, WayFacts};
 
 use super::floor::Floor;
@@ -17,7 +17,7 @@ use crate::draw::render_floor;
 use crate::error::Result;
 use crate::plan::Said;
 use crate::plan::course::{Found, NoEnd, Pathfinder, no_through, numbered};
-use crate::words::number::counted;
+use crate::words::number::{counted, number};
 use crate::words::point::point;
 use crate::words::suggest::did_you_mean;
 
@@ -87,6 +87,8 @@ impl Walkers {
             Some(trouble) => Err(trouble.to_owned()),
             None => path.map_err(|reason| match reason {
                 NoPath::NoWay if !refused.is_empty() => because(&refused, &mut judge),
+                NoPath::Start => unfit(&walker.floor, ("start", start)),
+                NoPath::Goal => unfit(&walker.floor, ("goal", goal)),
                 other => other.to_string(),
             }),
         };
@@ -113,6 +115,27 @@ impl Walkers {
         drop(judge);
         Ok(Walked { walker, path, said, legs })
     }
+}
+
+/// Why a robot cannot stand at an end.
+fn unfit(floor: &Floor, (end, at): (&str, Point)) -> String {
+    if !floor.plan.is_free(at) {
+        return format!(
+            "the {end} ({}, {}) lies outside of the plan, or in a wall",
+            number(at.x),
+            number(at.y)
+        );
+    }
+    let walls = floor.plan.barriers();
+    let nearest = walls.iter().map(|wall| Segment::from(*wall).distance(at)).fold(f64::INFINITY, f64::min);
+    let disc = floor.network.disc;
+    format!(
+        "the robot cannot stand at the {end} ({}, {}): a wall is {} m away, and it needs more than {} m",
+        number(at.x),
+        number(at.y),
+        number(nearest),
+        number(disc.reach())
+    )
 }
 
 /// Why nothing leads on: through which doorways rules let nobody, and by which rule.

@@ -214,3 +214,32 @@ fn a_row_of_told_names_a_doorway_or_a_space_as_people_do_or_by_a_point() {
     assert_eq!(by("DOORWAYS", "x, y", "6, 6"), [""]);
     assert_eq!(by("SPACES", "key", "'home'"), ["1"]);
 }
+
+#[test]
+fn what_others_edited_is_no_part_of_what_an_edit_is_said_to_change() {
+    let site = TestSite::example("starter").with("site.toml", STARTER).built();
+    let said = |args: &[&str]| {
+        let ran = site.adit(args[0], &args[1..]).expecting(0);
+        ran.complains(&["edited by others since the last build: that was taken in first"]);
+        ran.stdout
+    };
+    let close = "INSERT INTO told (class, x, y, property, kind, value) VALUES ('DOORWAYS', 6, 3.5, 'closed', 'truth', 1)";
+    site.outside_edit("UPDATE robots SET hardness = 9 WHERE state = 'SQUAT'");
+    site.outside_edit(close);
+    let tune = ["tune", "robots", "SIDE-STAND", "hardness", "2.5"];
+    for more in [&["--dry-run"][..], &[]] {
+        let said = said(&[&tune[..], more].concat());
+        assert!(said.contains("2 → 2.5") && !said.contains("→ 9"), "{said}");
+        assert!(!said.contains("lost") && !said.contains("is closed"), "{said}");
+        if more.is_empty() {
+            break;
+        }
+    }
+    assert_eq!(
+        site.sqlite3("SELECT status FROM route WHERE start = 'home' AND goal = 'window'"),
+        ["no_route"]
+    );
+    site.outside_edit("DELETE FROM told");
+    let undone = said(&["undo"]);
+    assert!(undone.contains("2.5 → 2") && !undone.contains("possible again"), "{undone}");
+}

@@ -129,3 +129,22 @@ fn a_named_door_and_a_named_area_are_shut_out_of_hours() {
         assert_eq!((route("2026-11-20T12:00"), route("2026-11-20T19:00")), (0, 1), "{kind}");
     }
 }
+
+#[test]
+fn who_opens_what_its_hours_shut_is_told_that_they_count_no_more() {
+    let site = TestSite::example("starter");
+    let door = "[[door]]\nname = \"ward door\"\nfrom = [6.0, 3.0]\nto = [6.0, 4.0]\n";
+    let hours = "[[hours]]\nname = \"ward door\"\ndays = \"sun\"\nopens = \"00:00\"\ncloses = \"00:01\"\n";
+    site.write(
+        "site.toml",
+        format!("map = \"map.toml\"\nrobots = \"robots.toml\"\ntimezone = \"UTC\"\n{door}{hours}"),
+    );
+    let site = site.built();
+    let status = || site.sqlite3("SELECT status FROM route WHERE start = 'home' AND goal = 'window'");
+    assert_eq!(status(), ["no_route"]);
+    let opened = site.adit("open", &["ward door"]).expecting(0);
+    opened.complains(&["ward door is open from now on whatever its opening hours say", "--retract 1"]);
+    assert_eq!(status(), ["ok"]);
+    site.adit("tell", &["--retract", "1"]).expect_status(0);
+    assert_eq!(status(), ["no_route"]);
+}

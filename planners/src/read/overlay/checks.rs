@@ -81,8 +81,10 @@ pub(super) fn known_places(
     }
     for place in &world.places {
         if let Some(over) = obstacles.iter().find(|obstacle| obstacle.value.contains(place.at)) {
-            let message = format!("this obstacle lies over the map's place `{}`", place.name);
-            found.push(text.problem(Code::PlaceInWall, &over.span, message));
+            // a pallet is put down where it is put down
+            let message =
+                format!("this obstacle lies over the map's place `{}`: nobody gets there", place.name);
+            found.push(text.problem(Code::PlaceInWall, &over.span, message).as_advice());
         }
     }
 }
