@@ -183,21 +183,26 @@ impl Memory {
     ) -> Result<(Done, Report)> {
         // an edit may mend what keeps it from being opened, and a build says what is still wrong
         let mut opened = Self::open(tx, site, inputs).unwrap_or_default();
-        let mut first = None;
+        let (mut first, mut is_by_others) = (None, false);
         if opened.is_none() {
             site.refuse_anothers(tx)?;
             let marks = tx.stale_marks()?;
+            is_by_others = marks.iter().any(|mark| mark.table != ROUTES);
             if !marks.is_empty() && is_built_by(tx, &inputs.rules)? {
                 // what others did is no part of what this edit changes
                 if let Ok((memory, report)) = Self::build(tx, site, inputs, progress) {
                     opened = Some(memory);
-                    first = Some((report, marks.iter().any(|mark| mark.table != ROUTES)));
+                    first = Some(report);
                 }
             }
         }
         make_tables(tx, &inputs.rules)?;
         let done = edit.apply(tx, site, &inputs.rules, author)?;
-        let Some(mut memory) = opened else { return Ok((done, Self::build(tx, site, inputs, progress)?.1)) };
+        let Some(mut memory) = opened else {
+            let mut report = Self::build(tx, site, inputs, progress)?.1;
+            report.notes.extend((is_by_others && report.generation > 1).then(|| LISTED_TOO.to_owned()));
+            return Ok((done, report));
+        };
         let graph = Arc::clone(memory.state.graph());
         let starts = memory.routes.plan().starts.clone();
         let followed = memory.follow(tx, Some(done.clone()), Promptness::AtOnce, progress)?;
@@ -208,7 +213,7 @@ impl Memory {
         let mut report = Report::new(before, weighed.as_ref(), &mut memory.state, (routes, stages));
         (report.conclusions, report.reacted) = (conclusions, reacted);
         report.concluded = memory.kept.derivations().len();
-        if let Some((first, is_by_others)) = first {
+        if let Some(first) = first {
             report.reacted.splice(0..0, first.reacted);
             let notes: Vec<String> =
                 first.notes.into_iter().filter(|note| !report.notes.contains(note)).collect();
@@ -357,6 +362,10 @@ impl Memory {
 /// What others did is taken in before an edit.
 const TAKEN_IN: &str =
     "tables were edited by others since the last build: that was taken in first, and is not listed here";
+
+/// What others did is listed with an edit, where rules are other ones as well.
+const LISTED_TOO: &str =
+    "tables were edited by others since the last build: what follows from that is listed, too";
 
 /// Whether the last build was by these rules.
 fn is_built_by(tx: &mut Tx<'_>, rules: &RuleBase) -> Result<bool> {
