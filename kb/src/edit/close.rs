@@ -287,7 +287,8 @@ pub(super) fn for_longer(tx: &mut Tx<'_>, what: &str, fact: &str) -> Result<Opti
     };
     let endless = |other: &&Row| (other.until.is_none(), other.until.clone());
     let Some(end) = &last.until else {
-        let other = told.iter().filter(closes_it).find(|other| other.id != last.id && other.until.is_none());
+        let is_another = |other: &&Row| other.id != last.id && other.until.is_none();
+        let other = told.iter().filter(closes_it).find(is_another).filter(|_| last.property == CLOSED);
         return Ok(other.map(|other| {
             format!(
                 "{what} was closed already, by fact {}: it stays closed where this one is taken back",
