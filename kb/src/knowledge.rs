@@ -5,6 +5,7 @@ pub(crate) mod classes;
 pub(crate) mod generation;
 pub(crate) mod inputs;
 pub mod laid;
+mod reseed;
 pub(crate) mod tables;
 pub(crate) mod told;
 pub(crate) mod tunings;
@@ -37,6 +38,7 @@ use tempfile::TempDir;
 use crate::error::{Code, Error, Finding, Result};
 use crate::knowledge::inputs::Inputs;
 use crate::knowledge::laid::Laid;
+use crate::knowledge::reseed::Reseed;
 use crate::knowledge::told::{Fact, NOBODY, Told};
 use crate::knowledge::tunings::RowKeys;
 use crate::plan;
@@ -56,7 +58,6 @@ use crate::site::tables::{self as files, TableFile};
 use crate::site::{Rooms, Site};
 use crate::words::number::number;
 use crate::words::progress::Progress;
-use crate::words::suggest::did_you_mean;
 
 /// How long the tests of rules may take that are only tried: somebody waits at the page, and where rules are saved
 /// everybody's edits wait.
@@ -168,32 +169,6 @@ pub struct KnowledgeBase {
     pub(crate) within: Option<f64>,
     /// The file and the folder of a map that is a site alone.
     alone: Option<(PathBuf, Arc<TempDir>)>,
-}
-
-/// Tables that a build takes from their files again.
-#[derive(Clone, Debug)]
-pub(crate) struct Reseed {
-    /// Whose edit that is.
-    pub author: Author,
-    /// Which; all where none is named.
-    tables: Vec<String>,
-}
-
-impl Reseed {
-    pub fn takes(&self, table: &str) -> bool {
-        self.tables.is_empty() || self.tables.iter().any(|name| name.eq_ignore_ascii_case(table))
-    }
-
-    /// Refuses a table that no file fills.
-    pub fn check(&self, filled: &[&str]) -> Result<()> {
-        let unknown =
-            self.tables.iter().find(|name| !filled.iter().any(|known| known.eq_ignore_ascii_case(name)));
-        let Some(unknown) = unknown else { return Ok(()) };
-        let help = did_you_mean(unknown, filled.iter().copied());
-        let help = help.unwrap_or_else(|| format!("files fill {}", filled.join(", ")));
-        let message = format!("no file of the site fills a table `{unknown}`");
-        Err(Error::said(Code::EditUnknownTable, message, Some(help)))
-    }
 }
 
 impl KnowledgeBase {

@@ -183,9 +183,9 @@ fn a_fact_that_its_property_cannot_hold_or_that_nobody_reads_is_said_and_stops_n
          'number', 3), ('DOORWAYS', NULL, 6, 3.5, 'closed_to', 'truth', 1)"
     ));
     site.adit("build", &[]).expecting(0).complains(&[
-        "DOORS.passable holds truth values, and its value is one of texts",
+        "DOORS.passable holds truth values, and `no` is none",
         "no rule reads ROBOTS.hardnes, and nothing gives it; did you mean `hardness`?",
-        "DOORWAYS.closed_to holds texts, and its value is one of truth values",
+        "DOORWAYS.closed_to holds texts, and `true` is none",
     ]);
     assert_eq!(site.sqlite3("SELECT * FROM doors"), before);
     assert_eq!(site.sqlite3("SELECT told || state FROM told_states"), ["1lost", "2attached", "3lost"]);

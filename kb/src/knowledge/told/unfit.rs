@@ -9,11 +9,8 @@ impl Unfit {
     /// That it counts for nothing, and why.
     pub fn said(&self) -> String {
         let Fact { class, property, .. } = &self.fact;
-        let (holds, is) = (self.holds.plural(), self.fact.kind().plural());
-        format!(
-            "{} counts for nothing: {class}.{property} holds {holds}, and its value is one of {is}",
-            self.fact.name()
-        )
+        let (name, holds, value) = (self.fact.name(), self.holds.plural(), &self.fact.value);
+        format!("{name} counts for nothing: {class}.{property} holds {holds}, and `{value}` is none")
     }
 }
 
