@@ -18,11 +18,15 @@ pub fn read(tx: &mut Tx<'_>) -> Result<u64> {
     Ok(tx.site_value("generation")?.and_then(|text| text.parse().ok()).unwrap_or(0))
 }
 
-/// Gives the database a new number, unless what was derived is the `same` as before and rests on an equal basis.
+/// Gives the database a new number, unless what was derived is the `same` as before, rests on an equal basis, and nothing
+/// was edited: programs that hold the site look at its tables again where the number is another one, though nothing
+/// follows from what was edited.
 pub fn renew(tx: &mut Tx<'_>, same: bool, basis: &str) -> Result<u64> {
-    let same = same && tx.site_value("basis")?.as_deref() == Some(basis);
+    let newest = tx.history(1)?.first().map_or(0, |entry| entry.id);
+    let basis = format!("{basis}-{newest}");
+    let same = same && tx.site_value("basis")?.as_deref() == Some(&basis);
     let generation = read(tx)? + u64::from(!same);
-    tx.set_site_value("basis", Some(basis))?;
+    tx.set_site_value("basis", Some(&basis))?;
     tx.set_site_value("generation", Some(&generation.to_string()))?;
     Ok(generation)
 }
