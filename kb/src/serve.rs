@@ -31,6 +31,7 @@ use std::time::{Duration, Instant};
 
 use crate::error::{Code, Error, Result};
 use crate::live::{Copy, Live};
+use crate::site::lock;
 use settings::Settings;
 use shared::Shared;
 use token::Tokens;
@@ -47,16 +48,19 @@ const FAREWELL: Duration = Duration::from_secs(10);
 /// # Arguments
 /// `ready` hears the address once requests are answered.
 pub fn run(mut settings: Settings, ready: impl FnOnce(std::net::SocketAddr)) -> Result<bool> {
+    // until the service ends
+    let mut _alone = None;
     let mut copy = None;
-    let mut live = match settings.shared.clone() {
-        Some(place) => {
-            let name = settings.shared_name(&place);
-            let made = Copy::make(&place, &name, &settings.folder)?;
-            (settings.database, copy) = (Some(made.database.clone()), Some((place, name)));
-            let again = settings.clone();
-            Live::open_shared(made, move || again.open())?
-        }
-        None => Live::open(settings.open()?)?,
+    let mut live = if let Some(place) = settings.shared.clone() {
+        let name = settings.shared_name(&place);
+        let made = Copy::make(&place, &name, &settings.folder)?;
+        (settings.database, copy) = (Some(made.database.clone()), Some((place, name)));
+        let again = settings.clone();
+        Live::open_shared(made, move || again.open())?
+    } else {
+        let site = settings.open()?;
+        _alone = Some(lock::database(site.database())?);
+        Live::open(site)?
     };
     let tokens = tokens(&settings)?;
     live.share()?;

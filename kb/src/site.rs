@@ -9,6 +9,7 @@ pub(crate) mod figures;
 pub(crate) mod hours;
 pub(crate) mod journal;
 pub(crate) mod lint;
+pub(crate) mod lock;
 pub(crate) mod over;
 pub(crate) mod robots;
 pub(crate) mod rules;
@@ -441,6 +442,12 @@ impl Site {
 fn no_site(folder: &Path, file: &Path, error: &std::io::Error) -> Error {
     if error.kind() != std::io::ErrorKind::NotFound {
         return Error::io("read", file, error);
+    }
+    if folder.to_string_lossy().starts_with("postgres") && folder.to_string_lossy().contains("://") {
+        let message =
+            "a site in PostgreSQL is asked and edited through a service (`adit serve FOLDER --database URL`)";
+        let help = "`adit copy URL FOLDER` brings it into a folder, for commands";
+        return Error::said(error::Code::SiteMissing, message, Some(help.to_owned()));
     }
     if !folder.exists() {
         let message = format!("there is no folder and no file {}", folder.display());

@@ -22,7 +22,7 @@ use crate::error::{Code, Error, Result};
 use crate::knowledge::KnowledgeBase;
 use crate::knowledge::inputs::Inputs;
 use crate::site::rules::Drafts;
-use crate::site::shared;
+use crate::site::{lock, shared};
 use crate::words::progress::Silent;
 
 /// Opens the site as its files now are.
@@ -142,6 +142,11 @@ impl Live {
     pub(super) fn renews(&self) -> bool {
         let others = self.shared.as_ref().and_then(|shared| shared.others);
         others.is_none_or(|wrote| wrote.elapsed() > RENEWAL)
+    }
+
+    /// Whether PostgreSQL could not be reached a moment ago, so that nobody knows what others wrote.
+    pub fn is_cut_off(&self) -> bool {
+        self.store.is_cut_off()
     }
 
     /// Whether files that others saved were written here since this was asked last.
@@ -394,7 +399,7 @@ pub struct Copy {
 impl Copy {
     /// Makes it.
     pub fn make(place: &Place, name: &str, folder: &Path) -> Result<Self> {
-        let lock = shared::lock(folder)?;
+        let lock = lock::folder(folder)?;
         let database = shared::copy(folder);
         let replica = Replica::make(place, name, &owner()?, &database)?;
         shared::take(folder, name, &replica.files())?;

@@ -14,8 +14,7 @@ use crate::error::{Code, Error, Result};
 /// In which file a folder says of which site its files are, and what they were.
 const MARK: &str = ".adit-copy";
 
-/// Which file a service holds that is at work in a folder, and where it has its copy of the rows.
-const LOCK: &str = ".adit-lock";
+/// Where a service has its copy of the rows.
 const COPY: &str = ".adit-copy.db";
 
 /// The most that a site's files may be together.
@@ -89,18 +88,6 @@ pub fn drafted(mut files: Vec<File>, folder: &Path, rules: &Path, drafts: &Draft
     }
     files.sort_by(|one, other| one.path.cmp(&other.path));
     files
-}
-
-/// Has a folder to oneself, until what is given back goes: two services would write each other's files.
-pub fn lock(folder: &Path) -> Result<fs::File> {
-    fs::create_dir_all(folder).map_err(|error| Error::io("make", folder, &error))?;
-    let path = folder.join(LOCK);
-    let file = fs::File::create(&path).map_err(|error| Error::io("write", &path, &error))?;
-    file.try_lock().map_err(|_| {
-        let message = format!("another service has its files in {}", folder.display());
-        Error::said(Code::PostgresFiles, message, Some("name a folder of its own".to_owned()))
-    })?;
-    Ok(file)
 }
 
 /// Where a folder has a service's copy of the rows, which is made anew: what a service left that was killed is taken away.

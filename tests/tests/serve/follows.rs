@@ -50,3 +50,33 @@ fn a_map_that_is_edited_while_it_is_served_is_cut_anew() {
         (&now["generation"], said["problems"].as_array().unwrap().len())
     );
 }
+
+/// A table that no rule reads is somebody's all the same: a program that drives vehicles waits for its goals.
+#[test]
+fn an_edit_from_the_shell_from_which_nothing_follows_is_heard_of() {
+    let site = TestSite::example("paper");
+    site.write("tables/vehicles.csv", "vehicle,goal\nv1,e\n");
+    let site = site.built();
+    let service = Service::start(&site);
+    let mut events = service.events();
+    let hello = events.next("hello");
+    site.adit("tune", &["vehicles", "v1", "goal", "f"]).expect_status(0);
+    let changed = events.next("changed");
+    assert_eq!((&changed["who"], &changed["rooms"]), (&"cli".into(), &0.into()), "{changed}");
+    assert!(changed["generation"].as_u64() > hello["generation"].as_u64(), "{changed}");
+    site.adit("undo", &[]).expect_status(0);
+    assert!(events.next("changed")["generation"].as_u64() > changed["generation"].as_u64());
+}
+
+#[test]
+fn a_database_is_served_by_one_service_at_a_time() {
+    let site = TestSite::example("paper").built();
+    let service = Service::start(&site);
+    Service::refused(&site, &["--listen", "127.0.0.1:0"])
+        .expect_status(2)
+        .complains(&["database/served", "site.db already"]);
+    // whoever edits from the shell is no service
+    site.adit("tune", &["robots", "SQUAT", "hardness", "3"]).expect_status(0);
+    service.kill();
+    Service::start(&site).end();
+}
