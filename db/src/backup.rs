@@ -9,9 +9,11 @@ use crate::error::{Error, Result};
 
 /// Writes a compact copy of the database to `to`, which must not exist. Works while others use the database.
 pub async fn copy(connection: &mut SqliteConnection, to: &Path) -> Result<()> {
-    if to.exists() {
-        return Err(Error::Exists(to.to_owned()));
-    }
+    // an empty file may be written to, and says at once where none can be made
+    std::fs::File::create_new(to).map_err(|source| match source.kind() {
+        std::io::ErrorKind::AlreadyExists => Error::Exists(to.to_owned()),
+        _ => Error::Io { path: to.to_owned(), source },
+    })?;
     let name = to.to_str().ok_or_else(|| Error::CannotOpen(to.to_owned()))?;
     let copied = crate::dynamic::execute(connection, "VACUUM INTO ?".to_owned(), &[Cell::from(name)]).await;
     if copied.is_err() {

@@ -168,6 +168,11 @@ impl Store {
         self.replica.is_some()
     }
 
+    /// Whether PostgreSQL could not be reached a moment ago, so that nothing of what others wrote is seen.
+    pub fn is_cut_off(&self) -> bool {
+        self.replica.as_ref().is_some_and(|replica| replica.is_cut_off())
+    }
+
     /// Asks for the right to write; `false` where another service has it. It is given up with the next transaction, or by
     /// [`Store::cede`]. Of what is no copy it is always there.
     pub fn lead(&mut self) -> Result<bool> {

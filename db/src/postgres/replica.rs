@@ -175,9 +175,14 @@ impl Replica {
         }
     }
 
+    /// Whether the database was out of reach so lately that it is not asked.
+    pub(crate) fn is_cut_off(&self) -> bool {
+        self.link.rests()
+    }
+
     /// What others wrote since; with `false` none is looked for shortly after the database was out of reach.
     pub(crate) fn waiting(&mut self, at_once: bool) -> Result<Vec<Entry>> {
-        if !at_once && self.link.rests() {
+        if !at_once && self.is_cut_off() {
             return Ok(Vec::new());
         }
         let mut entries = Vec::new();

@@ -27,10 +27,10 @@ pub struct ServeArgs {
     #[arg(long, value_name = "URL", env = "ADIT_DATABASE", hide_env_values = true, conflicts_with_all = ["db", "rules"])]
     pub database: Option<String>,
     /// Where to listen; port 0 takes any free one. To be reached from elsewhere the site needs tokens
-    #[arg(long, value_name = "ADDRESS", default_value = "127.0.0.1:7373")]
+    #[arg(long, value_name = "ADDRESS", default_value = "127.0.0.1:7373", value_parser = address)]
     pub listen: SocketAddr,
     /// A name besides `localhost` and the address itself by which browsers may call the service
-    #[arg(long = "host", value_name = "NAME")]
+    #[arg(long = "host", value_name = "NAME", value_parser = host)]
     pub hosts: Vec<String>,
     /// Seconds that one SQL query may take
     #[arg(long, value_name = "SECONDS", default_value_t = 1.0, value_parser = seconds)]
@@ -42,17 +42,43 @@ pub struct ServeArgs {
     #[arg(long, value_name = "SECONDS", default_value_t = 60.0, value_parser = seconds)]
     pub answer_seconds: f64,
     /// Requests that are worked on at once; more are told to come back
-    #[arg(long, value_name = "N", default_value_t = 1_024)]
+    #[arg(long, value_name = "N", default_value_t = 1_024, value_parser = some)]
     pub requests: usize,
     /// Streams of events that are open at once
-    #[arg(long, value_name = "N", default_value_t = 256)]
+    #[arg(long, value_name = "N", default_value_t = 256, value_parser = some)]
     pub subscribers: usize,
 }
 
 /// A time of more than nothing and less than an hour.
 fn seconds(text: &str) -> std::result::Result<f64, String> {
     let seconds: f64 = text.parse().map_err(|_| format!("`{text}` is no number"))?;
-    if seconds > 0.0 && seconds < 3600.0 { Ok(seconds) } else { Err("between 0 and 3600 seconds".to_owned()) }
+    if seconds > 0.0 && seconds < 3600.0 {
+        Ok(seconds)
+    } else {
+        Err("more than 0 and less than 3600 seconds".to_owned())
+    }
+}
+
+/// One at least.
+fn some(text: &str) -> std::result::Result<usize, String> {
+    let number: usize = text.parse().map_err(|_| format!("`{text}` is no whole number"))?;
+    if number > 0 { Ok(number) } else { Err("1 at least".to_owned()) }
+}
+
+/// An address and a port; `localhost` is this machine.
+fn address(text: &str) -> std::result::Result<SocketAddr, String> {
+    let of_name = text.strip_prefix("localhost:").map(|port| format!("127.0.0.1:{port}"));
+    let wanted =
+        "an address and a port, as `127.0.0.1:7373`, or `0.0.0.0:7373` for all addresses of this machine";
+    of_name.as_deref().unwrap_or(text).parse().map_err(|_| wanted.to_owned())
+}
+
+/// A name as it stands in an address, without protocol, port and path.
+fn host(text: &str) -> std::result::Result<String, String> {
+    if text.is_empty() || text.contains(['/', ' ']) || (text.contains(':') && !text.starts_with('[')) {
+        return Err("a name alone, as `robots.example.org`, without protocol, port and path".to_owned());
+    }
+    Ok(text.to_owned())
 }
 
 #[derive(Args, Debug)]

@@ -59,6 +59,8 @@ codes! {
     DatabaseRefused = "database/refused", BAD_REQUEST;
     /// The database was removed or replaced while it was served; start the service again.
     DatabaseReplaced = "database/replaced", INTERNAL_SERVER_ERROR;
+    /// Another service serves this database already; one is enough, and two would keep each other from editing.
+    DatabaseServed = "database/served", CONFLICT;
 
     /// The address at which a body is to be answered cannot be listened at.
     BodyListen = "body/listen", BAD_REQUEST;
@@ -338,6 +340,8 @@ codes! {
     ServiceLate = "service/late", SERVICE_UNAVAILABLE;
     /// The address is there, but is not asked in this way.
     ServiceMethod = "service/method", METHOD_NOT_ALLOWED;
+    /// Edits cannot be saved at present; routes are answered all the same.
+    ServiceNotReady = "service/not-ready", SERVICE_UNAVAILABLE;
     /// A part of the address cannot be read.
     ServicePath = "service/path", BAD_REQUEST;
     /// What stands behind the question mark is missing, unknown or cannot be read.

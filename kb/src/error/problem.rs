@@ -51,6 +51,11 @@ impl fmt::Display for Problem {
 }
 
 impl Problem {
+    /// Whether it is nothing that a caller or an editor of files did wrong.
+    pub(crate) fn is_of_the_service(&self) -> bool {
+        self.code.is_some_and(|code| code.http().is_server_error())
+    }
+
     pub(crate) fn of(found: &Finding) -> Self {
         let diagnostic = found.diagnostic();
         let severity = match diagnostic.severity() {

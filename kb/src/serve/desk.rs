@@ -134,8 +134,17 @@ impl Desk {
         }
     }
 
-    /// Makes an edit, and tells everyone.
+    /// Makes an edit, and tells everyone; where there is no saving it, the log and whoever watches the service, too.
     pub fn edit(&mut self, edit: &Edit, author: &Author) -> Result<Outcome> {
+        let edited = self.save(edit, author);
+        let problems = edited.as_ref().err().map_or_else(Vec::new, |error| Problem::all(error.problems()));
+        // who is in the way for a moment is no fault of the place
+        let is_full = |of: &Problem| of.is_of_the_service() && of.code != Some(Code::DatabaseLocked);
+        self.shared.say_problems(Source::Saving, problems.into_iter().filter(is_full).collect());
+        edited
+    }
+
+    fn save(&mut self, edit: &Edit, author: &Author) -> Result<Outcome> {
         self.check_database()?;
         // what others did before has its own cause
         self.catch_up();
@@ -242,7 +251,7 @@ impl Desk {
             Ok(None) => self.show_routes(),
             Err(error) => return self.shared.say_problems(source, Problem::all(error.problems())),
         }
-        if source == Source::Database {
+        if source == Source::Database && !self.live.is_cut_off() {
             self.shared.say_problems(source, Vec::new());
         }
     }

@@ -12,13 +12,17 @@ use crate::error::Code;
 const WHO: &str = "x-adit-who";
 const NAME_LENGTH: usize = 100;
 
+/// What is answered to everybody: whether the service lives, and whether it can save.
+const OPEN: [&str; 2] = ["/api/health", "/api/ready"];
+
 /// Who asks, where the request may come in.
 pub fn look(shared: &Shared, request: &Request) -> Answered<Caller> {
     let headers = request.headers();
     check_host(shared, headers)?;
     check_origin(headers)?;
-    // the page itself holds nothing: it asks for a token once it is there
-    let is_open = !request.uri().path().starts_with("/api/") && request.uri().path() != "/metrics";
+    let path = request.uri().path();
+    // the page itself holds nothing: it asks for a token once it is there; who watches the service has none
+    let is_open = OPEN.contains(&path) || !(path.starts_with("/api/") || path == "/metrics");
     match caller(shared, headers) {
         Err(_) if is_open => Ok(nobody()),
         caller => caller,

@@ -53,6 +53,7 @@ const POLICY: &str = "default-src 'self'; img-src 'self' data: blob:; object-src
 fn described() -> (Router<Arc<Shared>>, OpenApi) {
     let (router, mut api) = OpenApiRouter::<Arc<Shared>>::new()
         .routes(routes!(service::health))
+        .routes(routes!(service::ready))
         .routes(routes!(service::site))
         .routes(routes!(service::openapi))
         .routes(routes!(service::metrics))

@@ -1,6 +1,7 @@
 //! The way in from the network: connections with limits of their own, until the program is told to end.
 
 use std::net::SocketAddr;
+use std::pin::Pin;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -46,22 +47,28 @@ pub fn serve(shared: &Arc<Shared>, ready: impl FnOnce(SocketAddr)) -> Result<()>
     runtime.block_on(async {
         let listen = shared.settings.listen;
         let listener = TcpListener::bind(listen).await.map_err(|error| {
-            let help = "`--listen 127.0.0.1:0` takes any free port".to_owned();
+            let help = "another program may listen there: `--listen ADDRESS:PORT` names another port, and 0 any free one".to_owned();
             Error::said(Code::ServeAddress, format!("cannot listen on {listen}: {error}"), Some(help))
         })?;
+        let mut end = std::pin::pin!(told_to_end());
+        // signals are listened for once it is polled, which is to be before anybody knows of the service
+        tokio::select! {
+            biased;
+            () = &mut end => return Ok(()),
+            () = std::future::ready(()) => {}
+        }
         ready(listener.local_addr().map_err(failed)?);
-        accept(shared, &listener).await;
+        accept(shared, &listener, end).await;
         Ok(())
     })
 }
 
-async fn accept(shared: &Arc<Shared>, listener: &TcpListener) {
+async fn accept(shared: &Arc<Shared>, listener: &TcpListener, mut end: Pin<&mut impl Future<Output = ()>>) {
     let router = http::router(Arc::clone(shared));
     let mut server = hyper::server::conn::http1::Builder::new();
     server.timer(TokioTimer::new()).header_read_timeout(HEAD).max_buf_size(UNREAD);
     let reading = READING.min(shared.settings.patience);
     let open = GracefulShutdown::new();
-    let mut end = std::pin::pin!(told_to_end());
     loop {
         let (stream, from) = tokio::select! {
             // looked at first: who has been answered once is heard when it ends the service

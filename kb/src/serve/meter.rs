@@ -23,6 +23,8 @@ struct Meter {
     subscribers: IntGauge,
     rooms: IntGauge,
     doors: IntGauge,
+    problems: IntGauge,
+    hindrances: IntGauge,
 }
 
 impl Meter {
@@ -39,10 +41,16 @@ impl Meter {
             subscribers: IntGauge::new("adit_subscribers", "Who hears of changes at present")?,
             rooms: IntGauge::new("adit_rooms", "Rooms of the site")?,
             doors: IntGauge::new("adit_doors", "Doors of the site")?,
+            problems: IntGauge::new("adit_problems", "What is wrong, as `/api/site` says it")?,
+            hindrances: IntGauge::new(
+                "adit_not_ready",
+                "What keeps edits from being saved, as `/api/ready` says it",
+            )?,
         };
         meter.registry.register(Box::new(meter.requests.clone()))?;
         meter.registry.register(Box::new(meter.seconds.clone()))?;
-        for gauge in [&meter.generation, &meter.subscribers, &meter.rooms, &meter.doors] {
+        let Self { generation, subscribers, rooms, doors, problems, hindrances, .. } = &meter;
+        for gauge in [generation, subscribers, rooms, doors, problems, hindrances] {
             meter.registry.register(Box::new(gauge.clone()))?;
         }
         Ok(meter)
@@ -75,5 +83,7 @@ pub fn text(shared: &Shared) -> String {
     meter.subscribers.set(shared.subscribed() as i64);
     meter.rooms.set(seen.view.graph().rooms.len() as i64);
     meter.doors.set(seen.view.graph().doors.len() as i64);
+    meter.problems.set(shared.problems().len() as i64);
+    meter.hindrances.set(shared.hindrances().len() as i64);
     TextEncoder::new().encode_to_string(&meter.registry.gather()).unwrap_or_default()
 }

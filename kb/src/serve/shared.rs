@@ -79,6 +79,8 @@ pub enum Source {
     Database,
     /// The site: its rules, map, settings, tables.
     Site,
+    /// The last edit, where it was the place to save it that failed.
+    Saving,
 }
 
 /// The site after an edit, and when that was.
@@ -261,10 +263,18 @@ impl Shared {
         after_others(place, work).await
     }
 
-    /// What is wrong with files that were saved; the service goes on with those of before.
+    /// What is wrong with files that were saved, or with the place where edits are saved; the service goes on with what was
+    /// before.
     pub fn problems(&self) -> Vec<Problem> {
         let problems = self.problems.lock().unwrap_or_else(PoisonError::into_inner);
         problems.values().flatten().cloned().collect()
+    }
+
+    /// What keeps edits from being saved.
+    pub fn hindrances(&self) -> Vec<Problem> {
+        let mut problems = self.problems();
+        problems.retain(Problem::is_of_the_service);
+        problems
     }
 
     /// Tells subscribers and the log what is wrong now with what comes from there, unless they know.

@@ -75,6 +75,14 @@ fn while_the_database_is_gone_routes_are_answered_and_edits_are_refused() {
         let said = served.service.ask("GET", "/api/site", None).1["problems"].to_string();
         said.contains("postgres/unreachable")
     });
+    for _ in 0..20 {
+        let (_, site) = served.service.ask("GET", "/api/site", None);
+        assert_eq!(
+            site["problems"][0]["code"], "postgres/unreachable",
+            "it is said as long as it is so: {site}"
+        );
+        std::thread::sleep(std::time::Duration::from_millis(100));
+    }
     cluster.up();
     super::soon(std::time::Duration::from_secs(5), || {
         served.service.ask("POST", "/api/edits", Some(&squat(2.0))).0 == 200

@@ -32,11 +32,16 @@ fn edits_go_on_once_the_disk_has_room_again() {
             assert_eq!((status, &refused["error"]["code"]), (503, &json!("postgres/kept")), "{refused}");
         } else {
             assert_eq!((status, &refused["error"]["status"]), (500, &json!(500)), "{refused}");
+            let (status, unready) = service.ask("GET", "/api/ready", None);
+            assert_eq!((status, &unready["error"]["code"]), (503, &json!("service/not-ready")), "{unready}");
+            let (_, about) = service.ask("GET", "/api/site", None);
+            assert_eq!(about["problems"][0]["message"], refused["error"]["message"], "{about}");
         }
         room_for_files(&service, "unlimited");
         let value = 4.0 + f64::from(round);
         let (status, answer) = edit(value);
         assert_eq!(status, 200, "after the disk was full: {answer}");
+        assert_eq!(service.ask("GET", "/api/ready", None).0, 200);
     }
     service.end();
     // in PostgreSQL there was room for all of them

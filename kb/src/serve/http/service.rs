@@ -10,15 +10,31 @@ use serde::Serialize;
 use utoipa::ToSchema;
 
 use super::extract::Site;
+use crate::error::Code;
 use crate::error::problem::Problem;
-use crate::serve::fault::Answered;
+use crate::serve::fault::{Answered, Fault};
 use crate::serve::role::{Caller, Role};
 use crate::serve::{gate, meter};
 
-/// Whether the service lives: two bytes.
+/// Whether the service lives: two bytes. No token is asked for.
 #[utoipa::path(get, path = "/api/health", tag = "service", responses((status = 200, body = String, content_type = "text/plain")))]
 pub async fn health() -> &'static str {
     "ok"
+}
+
+/// Whether edits can be saved: `ready`, or 503 and what is in the way. No token is asked for.
+#[utoipa::path(get, path = "/api/ready", tag = "service", responses((status = 200, body = String, content_type = "text/plain")))]
+pub async fn ready(shared: Site) -> Answered<&'static str> {
+    let hindrances = shared.hindrances();
+    match hindrances.first() {
+        None => Ok("ready"),
+        Some(first) => {
+            let what = first.code.map_or("a fault of the service", Code::as_str);
+            // what names files is for those who have a token
+            Err(Fault::new(Code::ServiceNotReady, format!("edits cannot be saved ({what})"))
+                .helped("`problems` of `/api/site` says more"))
+        }
+    }
 }
 
 #[derive(Serialize, ToSchema)]
@@ -43,7 +59,8 @@ pub struct SiteAnswer {
     who: String,
     /// When the last change came into force, in UTC.
     changed_at: String,
-    /// What is wrong with files that were saved; the site goes on with those of before.
+    /// What is wrong with files that were saved, or with the place where edits are saved; the site goes on with what was
+    /// before.
     problems: Vec<Problem>,
     /// Whether routes kept in the database have yet to follow the last change; answers of this service do so at once.
     routes_due: bool,
