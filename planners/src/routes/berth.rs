@@ -60,7 +60,7 @@ impl<'g> Wide<'g> {
         let mut from = legs[first].from;
         let length = |legs: &[Leg]| legs.iter().map(Leg::length).sum::<f64>();
         while first < end {
-            let is_stop = |leg: &Leg| leg.door.is_some_and(|door| !graph.is_free(door));
+            let is_stop = |leg: &Leg| leg.door.is_some_and(|door| !graph.costs_nothing(door));
             let last = (first..end).find(|&leg| is_stop(&legs[leg])).unwrap_or(end - 1);
             // of several changes at one point each is made there
             let is_next = last + 1 < end && legs[last + 1].length() > SNAP_M;

@@ -114,6 +114,12 @@ impl RouteGraph {
         self.walls.iter().filter(move |wall| wall.holds_for(room)).map(|wall| &wall.segment)
     }
 
+    /// Those of them that nobody passes, from neither side.
+    pub(super) fn shut_of(&self, room: RoomIndex) -> impl Iterator<Item = &Segment> {
+        let shut = self.walls.iter().filter(move |wall| wall.holds_for(room) && !wall.is_open_to_left);
+        shut.map(|wall| &wall.segment)
+    }
+
     /// Whether a point of a room lies on a closed boundary.
     pub(super) fn is_on_wall(&self, room: RoomIndex, p: Point) -> bool {
         self.walls_of(room).any(|wall| wall.distance(p) <= EPSILON)

@@ -243,12 +243,15 @@ impl RouteGraph {
         &self.doors
     }
 
-    /// Whether a door can be passed for nothing, between rooms of equal hardness.
+    /// Whether a door can be passed for nothing, between rooms of equal hardness, both ways.
     pub(super) fn is_free(&self, door: DoorIndex) -> bool {
+        !self[door].one_way && self.costs_nothing(door)
+    }
+
+    /// Whether a door is passed for nothing, between rooms of equal hardness, in the ways in which it is passed.
+    pub(super) fn costs_nothing(&self, door: DoorIndex) -> bool {
         let (one, two) = (self[door].room1, self[door].room2);
-        !self[door].one_way
-            && self.passage(door) == Some(0.0)
-            && self.per_m(one).to_bits() == self.per_m(two).to_bits()
+        self.passage(door) == Some(0.0) && self.per_m(one).to_bits() == self.per_m(two).to_bits()
     }
 
     /// Hardness of a metre; 0 where all hardness lies on the doors, infinite where no route enters.

@@ -37,6 +37,8 @@ pub(super) struct Exit {
 pub(super) struct Exits {
     /// For each room its doors to pass.
     portals: Csr<Exit>,
+    /// For each room the doors that lead into it and not back; `to` is the room from which.
+    portals_into: Csr<Exit>,
     /// For each room the changes of shape that begin in it.
     changes: Csr<Exit>,
     /// For each room the changes that lead into it; `to` is the room where they begin.
@@ -58,7 +60,8 @@ pub(super) struct Mesh {
 
 impl Exits {
     pub fn new(rooms: usize, doors: &[RouteDoor]) -> Self {
-        let (mut portals, mut changes, mut changes_into) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut portals, mut portals_into) = (Vec::new(), Vec::new());
+        let (mut changes, mut changes_into) = (Vec::new(), Vec::new());
         for (index, door) in doors.iter().enumerate() {
             let index = DoorIndex::new(index);
             let there = Exit { door: index, to: door.room2 };
@@ -70,12 +73,18 @@ impl Exits {
                     changes_into.push((to.index(), *entry));
                 } else {
                     portals.push((from.index(), *exit));
+                    portals_into.extend(door.one_way.then_some((to.index(), *entry)));
                 }
             }
         }
-        let [portals, changes, changes_into] =
-            [portals, changes, changes_into].map(|items: Vec<(usize, Exit)>| Csr::new(rooms, items));
-        Self { portals, changes, changes_into }
+        let [portals, portals_into, changes, changes_into] = [portals, portals_into, changes, changes_into]
+            .map(|items: Vec<(usize, Exit)>| Csr::new(rooms, items));
+        Self { portals, portals_into, changes, changes_into }
+    }
+
+    /// The doors beside a room, whichever way they lead.
+    pub fn portals_beside(&self, room: RoomIndex) -> impl Iterator<Item = &Exit> {
+        self.portals(room).iter().chain(self.portals_into.of(room.index()))
     }
 
     pub fn portals(&self, room: RoomIndex) -> &[Exit] {

@@ -251,7 +251,7 @@ impl Chain<'_> {
             let (here, beyond) = (on.at(share), on.at((share + SNAP_M / length.max(SNAP_M)).min(1.0)));
             let near = |p: Point, room: RoomIndex| graph[room].outline.distance(p);
             let exits = graph.exits.portals(room).iter().filter(|exit| {
-                graph.is_free(exit.door)
+                graph.costs_nothing(exit.door)
                     && graph[exit.door].crossing.nearest_to(here).distance(here) <= SNAP_M
                     && !passed.contains(&exit.to)
             });
@@ -280,7 +280,7 @@ impl Chain<'_> {
                 if to == from {
                     return Some((count, Vec::new()));
                 }
-                if run.iter().any(|link| !graph.is_free(link.door))
+                if run.iter().any(|link| !graph.costs_nothing(link.door))
                     && let Some(doors) = self.around(from, to, at)
                 {
                     return Some((count, doors));
@@ -310,7 +310,7 @@ impl Chain<'_> {
         let mut reached: Vec<(RoomIndex, Option<(usize, DoorIndex)>)> = vec![(from, None)];
         let mut next = 0;
         while let Some(&(room, _)) = reached.get(next).filter(|(room, _)| *room != to) {
-            for exit in graph.exits.portals(room).iter().filter(|exit| graph.is_free(exit.door)) {
+            for exit in graph.exits.portals(room).iter().filter(|exit| graph.costs_nothing(exit.door)) {
                 let is_new = reached.iter().all(|(room, _)| *room != exit.to);
                 if is_new && graph[exit.door].crossing.nearest_to(at).distance(at) <= SNAP_M {
                     reached.push((exit.to, Some((next, exit.door))));
@@ -404,7 +404,7 @@ impl Chain<'_> {
         let is_change = graph[stop.door].is_change();
         let weight = graph.passage(stop.door);
         let mut rooms = vec![before];
-        let free = graph.exits.portals(before).iter().filter(|exit| graph.is_free(exit.door));
+        let free = graph.exits.portals(before).iter().filter(|exit| graph.costs_nothing(exit.door));
         rooms.extend(free.map(|exit| exit.to));
         rooms.retain(|&room| graph[room].outline.distance(stop.at) <= SNAP_M);
         let mut found = Vec::new();

@@ -47,7 +47,7 @@ impl RouteGraph {
     pub(super) fn arc(&self, door: DoorIndex, at: Point) -> Option<Arc> {
         let radius = self[self[door].room1].radius? + SNAP_M;
         let doors = self.turning().mesh.doors_at(door, at)?;
-        if !doors.iter().all(|&door| self.is_free(door)) {
+        if !doors.iter().all(|&door| self.costs_nothing(door)) {
             return None;
         }
         let around = self.rooms_of(doors);
@@ -68,7 +68,8 @@ impl RouteGraph {
         let doors =
             segments.map(|door| (((far(door, at) - at).angle() - first).rem_euclid(TAU), door)).collect();
         let arc = Arc { at, centre, radius, wall, corners, doors };
-        arc.is_clear_of(self.walls_of(self[door].room1)).then_some(arc)
+        // one that is passed one way is passed about the arc as well as beside it
+        arc.is_clear_of(self.shut_of(self[door].room1)).then_some(arc)
     }
 
     /// The rooms that some doors join.

@@ -123,7 +123,7 @@ impl Run {
                     walled.push(room);
                     walls.extend(graph.walls_beside(room, about));
                 }
-                for exit in graph.exits.portals(room).iter().filter(|exit| graph.is_free(exit.door)) {
+                for exit in graph.exits.portals(room).iter().filter(|exit| graph.costs_nothing(exit.door)) {
                     let Some(door) = graph[exit.door].crossing.segment() else { continue };
                     if !door.bounds().grown(reach).overlaps(&line.bounds()) || door.gap(&line) > reach {
                         continue;

@@ -74,7 +74,7 @@ impl RouteGraph {
     /// What of a room's sides near a rectangle nobody passes, with the room to the left.
     pub(super) fn walls_beside(&self, room: RoomIndex, about: Rect) -> Vec<Segment> {
         let sides = self[room].outline.sides().filter(|side| side.bounds().overlaps(&about));
-        let portals = self.exits.portals(room).iter().filter(|exit| self.is_open(exit.door));
+        let portals = self.exits.portals_beside(room).filter(|exit| self.is_open(exit.door));
         let open: Vec<Segment> = portals.filter_map(|exit| self[exit.door].crossing.segment()).collect();
         let walls = |side: Segment| {
             let open: Vec<Segment> = open.iter().filter_map(|open| side.shared_with(open)).collect();

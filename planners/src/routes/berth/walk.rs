@@ -85,7 +85,7 @@ impl Run {
             let exit = exits.find(|exit| {
                 let crossing = &graph[exit.door].crossing;
                 exit.to == into
-                    && graph.is_free(exit.door)
+                    && graph.costs_nothing(exit.door)
                     && crossing.nearest_to(end).distance(end) <= SNAP_M
             });
             passed.push((Some(exit.ok_or(last)?.door), end, into));
@@ -136,7 +136,9 @@ impl Run {
                 let segment = graph[exit.door].crossing.segment();
                 let ends_there =
                     |door: Segment| door.a.distance(arc.at).min(door.b.distance(arc.at)) <= SNAP_M;
-                graph.is_free(exit.door) && !through.contains(&exit.to) && segment.is_some_and(ends_there)
+                graph.costs_nothing(exit.door)
+                    && !through.contains(&exit.to)
+                    && segment.is_some_and(ends_there)
             });
             let exit = exits.min_by(|one, two| off(one.to).total_cmp(&off(two.to)))?;
             Some((f64::midpoint(enters, leaves), exit.door, exit.to))
@@ -175,7 +177,7 @@ fn exit(
             let corners = graph[room].outline.corners().map(off);
             corners.fold(0.0_f64, |most, off| if off.abs() > most.abs() { off } else { most }) * two < 0.0
         };
-        let is_next = !through.contains(&exit.to) && graph.is_free(exit.door) && is_outward();
+        let is_next = !through.contains(&exit.to) && graph.costs_nothing(exit.door) && is_outward();
         is_next.then_some((share, exit.door, exit.to))
     });
     exits.min_by(|one, two| one.0.total_cmp(&two.0))

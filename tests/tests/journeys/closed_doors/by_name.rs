@@ -194,7 +194,7 @@ fn one_way(
         if !passes(&before)[side] {
             let (was, is) = (before.cost.unwrap(), after.cost.expect(&told));
             assert!(
-                (is / was - 1.0).abs() < 0.011,
+                (is / was - 1.0).abs() < 1e-6,
                 "{told}: {was} and {is}, though it comes from the other side"
             );
         }
