@@ -252,7 +252,9 @@ fn of_routes(report: &Report) -> String {
     let routes = &report.routes;
     let starts = counted(routes.starts, "start");
     let Some(rerouted) = routes.rerouted else {
-        let same = if routes.changes.is_empty() { "; between places none costs anything else" } else { "" };
+        // over other maps they were not compared
+        let is_same = routes.changes.is_empty() && report.course.is_none();
+        let same = if is_same { "; between places none costs anything else" } else { "" };
         return format!("routes from {starts} were made anew{same}");
     };
     if routes.starts == 0 {

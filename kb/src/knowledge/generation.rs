@@ -23,12 +23,21 @@ pub fn read(tx: &mut Tx<'_>) -> Result<u64> {
 /// follows from what was edited.
 pub fn renew(tx: &mut Tx<'_>, same: bool, basis: &str) -> Result<u64> {
     let newest = tx.history(1)?.first().map_or(0, |entry| entry.id);
-    let basis = format!("{basis}-{newest}");
+    let basis = format!("{basis}{AFTER}{newest}");
     let same = same && tx.site_value("basis")?.as_deref() == Some(&basis);
     let generation = read(tx)? + u64::from(!same);
     tx.set_site_value("basis", Some(&basis))?;
     tx.set_site_value("generation", Some(&generation.to_string()))?;
     Ok(generation)
+}
+
+/// Parts a basis from the newest edit that was made on it.
+const AFTER: char = '-';
+
+/// Whether what is in the database was derived from this basis.
+pub fn rests_on(tx: &mut Tx<'_>, basis: &str) -> Result<bool> {
+    let kept = tx.site_value("basis")?;
+    Ok(kept.is_some_and(|kept| kept.split(AFTER).next() == Some(basis)))
 }
 
 /// What a derivation starts from besides the tables: the costly part, for many edits.

@@ -114,7 +114,7 @@ impl Memory {
         }
         let told = site.told(tx, &inputs.rules)?;
         let basis = Basis::new(site.site(), &inputs.world, &inputs.rules);
-        if tx.site_value("basis")?.as_deref() != Some(&basis.with(&told)) {
+        if !generation::rests_on(tx, &basis.with(&told))? {
             return Ok(None);
         }
         let starts = tx.starts()?;
