@@ -5,7 +5,6 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use adit_db::course::Course as Row;
 use adit_db::place::Place;
-use adit_db::route::{Step, Waypoint};
 use adit_planners::floor_plan::{Network, NoPath, Path, Rule, Spot, Way};
 use adit_planners::geometry::{Point, Segment};
 use adit_planners::navigation::{Judge, WayFacts};
@@ -50,12 +49,7 @@ impl Walkers {
         walker.ok_or_else(|| NoEnd { is_start: true, reason: format!("there is no robot `{robot}`") })
     }
 
-    fn path(
-        &self,
-        robot: &str,
-        ends: [&str; 2],
-        shut: Option<&dyn Fn(&Way) -> bool>,
-    ) -> std::result::Result<Walked<'_>, NoEnd> {
+    fn path(&self, robot: &str, ends: [&str; 2], rule: Rule) -> std::result::Result<Walked<'_>, NoEnd> {
         let walker = self.walker(robot)?;
         let (start, goal) = (self.end(ends[0], true)?, self.end(ends[1], false)?);
         if let Some(unfit) = &walker.unfit {
@@ -67,10 +61,7 @@ impl Walkers {
         let mut of_ends: Vec<Way> = Vec::new();
         // through which doorways rules let nobody
         let mut refused: BTreeMap<usize, Way> = BTreeMap::new();
-        let path = walker.floor.network.path(start, goal, Rule::Tight, |way| {
-            if shut.is_some_and(|shut| shut(way)) {
-                return None;
-            }
+        let path = walker.floor.network.path(start, goal, rule, |way| {
             let weight = judge.weigh(&WayFacts { way, is_cut: false, times_blocked: 0 });
             if let (None, Some(doorway)) = (weight, way.doorway) {
                 refused.insert(doorway, way.clone());
@@ -170,7 +161,7 @@ impl Pathfinder for Walkers {
     }
 
     fn find(&self, robot: &str, start: &str, goal: &str) -> std::result::Result<Found, NoEnd> {
-        let walked = self.path(robot, [start, goal], None)?;
+        let walked = self.path(robot, [start, goal], Rule::Tight)?;
         Ok(found([robot, start, goal], &walked))
     }
 
@@ -180,52 +171,21 @@ impl Pathfinder for Walkers {
         let doorway = numbered(through, "doorway").filter(|number| *number < doorways).ok_or_else(|| {
             no_through(through, &format!("`doorway 0` to `doorway {}`", doorways.saturating_sub(1)))
         })?;
-        let walked = self.path(robot, ends, None)?;
-        let is_through = walked.path.as_ref().is_ok_and(|path| path.doorways.contains(&doorway));
-        if is_through {
+        let walked = self.path(robot, ends, Rule::Tight)?;
+        let is_best = walked.path.as_ref().is_ok_and(|path| path.doorways.contains(&doorway));
+        let walked = if is_best { walked } else { self.path(robot, ends, Rule::Through(doorway))? };
+        if walked.path.is_ok() {
             return Ok(found([robot, ends[0], ends[1]], &walked));
         }
-        // to the doorway on the one side, and on from the other
-        let mut best: Option<Found> = None;
-        for adit in network.adits.iter().filter(|adit| adit.doorway == doorway) {
-            let named = |at: Point| format!("{},{}", at.x, at.y);
-            let (here, there) = (named(adit.at), named(network.adits[adit.twin].at));
-            let is_this = |way: &Way| way.doorway == Some(doorway);
-            let before = self.path(robot, [ends[0], &here], Some(&is_this))?;
-            let across = self.path(robot, [&here, &there], None)?;
-            if !across.path.as_ref().is_ok_and(|path| path.doorways == [doorway]) {
-                continue;
-            }
-            let after = self.path(robot, [&there, ends[1]], Some(&is_this))?;
-            let parts = [before, across, after].map(|walked| found([robot, ends[0], ends[1]], &walked));
-            let joined = joined(parts, [robot, ends[0], ends[1]]);
-            let is_better = match &best {
-                None => true,
-                Some(best) => {
-                    joined.row.cost.is_some_and(|cost| best.row.cost.is_none_or(|least| cost < least))
-                }
-            };
-            if is_better {
-                best = Some(joined);
-            }
-        }
-        Ok(best.filter(|best| best.row.reason.is_none()).unwrap_or_else(|| {
-            let mut judge = self
-                .walkers
-                .iter()
-                .find(|walker| walker.robot == robot)
-                .map(|walker| walker.judge.lock().unwrap_or_else(PoisonError::into_inner));
-            let way = network.ways.iter().find(|way| way.doorway == Some(doorway));
-            let rule = way.and_then(|way| judge.as_mut()?.refused_by(way));
-            let reason = match rule {
-                Some(why) => format!("{through} {why}"),
-                None if way.is_none() => format!("{robot} does not fit through {through}"),
-                None => format!("no way leads to {through} and on from it"),
-            };
-            let reason = Some(reason);
-            let row = Row { reason, ..Row::blank(robot, ends[0], ends[1]) };
-            Found { row, said: Vec::new() }
-        }))
+        let mut judge = walked.walker.judge.lock().unwrap_or_else(PoisonError::into_inner);
+        let way = network.ways.iter().find(|way| way.doorway == Some(doorway));
+        let reason = match way.map(|way| judge.refused_by(way)) {
+            Some(Some(why)) => format!("{through} {why}"),
+            None => format!("{robot} does not fit through {through}"),
+            Some(None) => format!("no way leads to {through} and on from it"),
+        };
+        let row = Row { reason: Some(reason), ..Row::blank(robot, ends[0], ends[1]) };
+        Ok(Found { row, said: Vec::new() })
     }
 
     fn picture(&self, title: &str, route: Option<[&str; 3]>) -> std::result::Result<String, NoEnd> {
@@ -233,7 +193,7 @@ impl Pathfinder for Walkers {
             let Some(Walker { floor, .. }) = self.walkers.first() else { return Ok(String::new()) };
             return Ok(drawn(title, floor, None));
         };
-        let walked = self.path(robot, [start, goal], None)?;
+        let walked = self.path(robot, [start, goal], Rule::Tight)?;
         Ok(drawn(title, &walked.walker.floor, walked.path.as_ref().ok()))
     }
 
@@ -260,42 +220,6 @@ impl Pathfinder for Walkers {
 fn drawn(title: &str, floor: &Floor, path: Option<&Path>) -> String {
     let Floor { plan, network, told, .. } = floor;
     render_floor(title, plan, network, |doorway| told.is_closed(doorway), path)
-}
-
-/// Parts of a way, one after the other.
-fn joined(parts: [Found; 3], [robot, start, goal]: [&str; 3]) -> Found {
-    let mut row = Row::blank(robot, start, goal);
-    let (mut cost, mut distance) = (0.0, 0.0);
-    for Found { row: part, .. } in parts {
-        if let Some(reason) = part.reason {
-            return Found {
-                row: Row { reason: Some(reason), ..Row::blank(robot, start, goal) },
-                said: Vec::new(),
-            };
-        }
-        row.clearance = match (row.clearance, part.clearance) {
-            (Some(one), Some(other)) => Some(one.min(other)),
-            (one, other) => one.or(other),
-        };
-        for step in part.steps {
-            let number = row.steps.len() as i64 + 1;
-            row.steps.push(Step { step: number, cost: step.cost + cost, ..step });
-        }
-        for point in part.waypoints.into_iter().skip(usize::from(!row.waypoints.is_empty())) {
-            let number = row.waypoints.len() as i64 + 1;
-            let far = point.distance.map(|metres| metres + distance);
-            row.waypoints.push(Waypoint {
-                waypoint: number,
-                cost: point.cost + cost,
-                distance: far,
-                ..point
-            });
-        }
-        cost += part.cost.unwrap_or_default();
-        distance += part.distance.unwrap_or_default();
-    }
-    (row.cost, row.distance) = (Some(cost), Some(distance));
-    Found { row, said: Vec::new() }
 }
 
 /// What came of it, as it is kept.

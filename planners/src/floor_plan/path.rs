@@ -23,6 +23,8 @@ pub enum Rule {
     AllAdits,
     /// As [`Self::AllAdits`], and pulled tight through the doorways.
     Tight,
+    /// As [`Self::Tight`], of the paths that pass this doorway, and pass it once.
+    Through(usize),
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -87,6 +89,7 @@ impl Network {
             Rule::Nearest => query.nearest(),
             Rule::AllAdits => query.all_adits(),
             Rule::Tight => query.tight(),
+            Rule::Through(doorway) => query.through(doorway),
         }
         .ok_or(NoPath::NoWay)
     }
@@ -165,6 +168,18 @@ impl<W: FnMut(&Way) -> Option<f64>> Query<'_, W> {
         direct.into_iter().chain(pulled).min_by(|a, b| a.weight.total_cmp(&b.weight))
     }
 
+    fn through(&mut self, doorway: usize) -> Option<Path> {
+        let network = self.network;
+        let (first, last) = (self.open(|query| &query.first), self.open(|query| &query.last));
+        let mut routes = self.trees.routes(&first, &last, f64::MAX);
+        routes.retain(|route| passed(&route.adits, network).any(|passed| passed == doorway));
+        let least = routes.first()?.weight;
+        routes.retain(|route| route.weight <= least * (1.0 + SLACK));
+        routes.truncate(MOST_PULLED);
+        let pulled = routes.iter().filter_map(|route| self.pulled(route));
+        pulled.min_by(|a, b| a.weight.total_cmp(&b.weight))
+    }
+
     fn over_adits(&self, route: &Route) -> Path {
         let mut points = vec![self.ends[0].at];
         let mut before = None;
@@ -212,8 +227,13 @@ fn weight_to(open: &[(usize, f64)], adit: usize) -> Option<f64> {
     open.iter().find(|end| end.0 == adit).map(|end| end.1)
 }
 
-fn path_of(points: Vec<Point>, weight: f64, adits: &[usize], network: &Network) -> Path {
+/// The doorways that a path over adits passes.
+fn passed<'n>(adits: &'n [usize], network: &'n Network) -> impl Iterator<Item = usize> + 'n {
     let passed = adits.windows(2).filter(|pair| network.adits[pair[0]].twin == pair[1]);
-    let doorways = passed.map(|pair| network.adits[pair[0]].doorway).collect();
+    passed.map(|pair| network.adits[pair[0]].doorway)
+}
+
+fn path_of(points: Vec<Point>, weight: f64, adits: &[usize], network: &Network) -> Path {
+    let doorways = passed(adits, network).collect();
     Path { length: path_length(&points), points, weight, doorways, adits: adits.to_vec() }
 }

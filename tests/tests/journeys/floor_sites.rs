@@ -83,6 +83,14 @@ fn a_doorway_is_closed_where_it_is_and_a_wall_is_moved() {
     assert!(leg.contains("weight is") && leg.contains("a way weighs its length"), "{leg}");
     let other = site.adit("why-not", &["bed", "bath", "--through", "doorway 0"]).expecting(0).stdout;
     assert!(!other.is_empty());
+    // what a way through another doorway is said to cost is what it costs once the one that is passed is closed
+    let through = site.adit("why-not", &["bed", "bath", "--through", "doorway 10"]).expecting(0).stdout;
+    let closed = site.adit("close", &["doorway 6"]).expecting(0).stdout;
+    assert!(closed.contains("bed to bath: 13.42 → 13.541, another way"), "{closed}");
+    let route = site.adit("route", &["bed", "bath"]).expecting(0).stdout;
+    assert!(route.contains("doorway 10") && route.contains("hardness 13.541"), "{route}");
+    assert!(through.contains("costs 13.541 (by region 2, region 1, region 7)"), "{through}");
+    site.adit("undo", &[]).expect_status(0);
     site.adit("check", &[]).expect_status(0);
     site.adit("doctor", &[]).expect_status(0);
 }
