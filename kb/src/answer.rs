@@ -101,7 +101,6 @@ impl State {
 
     pub(crate) fn basis(&self) -> Basis<'_> {
         Basis {
-            knowledge: &self.site,
             graph: self.graph(),
             rules: &self.inputs.rule_names,
             ground: Ground::Known(&self.world, &self.gauge),

@@ -7,14 +7,11 @@ use adit_planners::world::World;
 use crate::error::Result;
 use crate::graph::gauge::{Gauge, Sizes};
 use crate::graph::{Rules, SiteGraph};
-use crate::knowledge::KnowledgeBase;
 use crate::knowledge::laid::Laid;
 use crate::site::Site;
 
 /// What routes are found with.
 pub(crate) struct Basis<'a> {
-    /// The site.
-    pub knowledge: &'a KnowledgeBase,
     /// Its rooms and doors.
     pub graph: &'a SiteGraph,
     /// The rules' names.

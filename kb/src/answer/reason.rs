@@ -10,8 +10,8 @@ use super::Answer;
 use super::basis::Basis;
 use super::ends::Ends;
 use crate::error::{Code, Error, Nearest, Result};
+use crate::graph::gauge::Size;
 use crate::graph::{Closer, End, Rules, SiteGraph, is_weighed, why_one_way};
-use crate::knowledge::KnowledgeBase;
 use crate::words::number::number;
 
 /// How many shut doors are described.
@@ -31,9 +31,13 @@ impl Basis<'_> {
         match blockage(graph.graph(), &ends.start, &ends.goals[0]) {
             Blockage::Shut(doors) => Ok(self.all_shut(&doors)),
             Blockage::Apart => {
-                let world = self.ground.get()?.0;
+                let (world, gauge) = self.ground.get()?;
                 let to = ends.goals[0].at.unwrap_or_else(|| graph.point(&ends.named[1]));
-                apart(world, (ends.start.at, to), robot, self.knowledge)
+                // as large as this errand's load makes them
+                let of = gauge.sizes().iter().filter(|((of, _), size)| of == robot && size.width > 0.0);
+                let states: Vec<(&str, Size)> =
+                    of.map(|((_, state), size)| (state.as_str(), *size)).collect();
+                apart(world, (ends.start.at, to), &states)
             }
         }
     }
@@ -149,15 +153,11 @@ fn shut(graph: &SiteGraph, door: &Door, rules: &Rules) -> String {
 }
 
 /// Two points that no doors join: how wide and how high the best way is.
-fn apart(
-    world: &World,
-    (from, to): (Point, Point),
-    robot: &str,
-    knowledge: &KnowledgeBase,
-) -> Result<String> {
-    let states = knowledge.states(robot)?;
-    let widths: Vec<f64> = states.iter().map(|state| state.width).filter(|width| *width > 0.0).collect();
-    let slimmest = widths.iter().copied().fold(f64::INFINITY, f64::min);
+///
+/// # Arguments
+/// `states` are those that move.
+fn apart(world: &World, (from, to): (Point, Point), states: &[(&str, Size)]) -> Result<String> {
+    let slimmest = states.iter().map(|(_, size)| size.width).fold(f64::INFINITY, f64::min);
     let native = world.occupancy.as_ref().map(|cells| cells.resolution);
     let step = world.grid.or(native).unwrap_or(slimmest / 7.0);
     let width = narrowest(world, from, to, step);
@@ -175,11 +175,8 @@ fn apart(
     let high = headroom(world, from, to, slimmest, step).map_err(Error::of(Code::RouteReason))?;
     Ok(match high {
         Headroom::Limited { height, at } => {
-            let lower: Vec<&str> = states
-                .iter()
-                .filter(|state| state.height < height && state.width > 0.0)
-                .map(|state| state.state.as_str())
-                .collect();
+            let lower = states.iter().filter(|(_, size)| size.height < height);
+            let lower: Vec<&str> = lower.map(|(state, _)| *state).collect();
             let who = if lower.is_empty() {
                 "no state is".to_owned()
             } else {

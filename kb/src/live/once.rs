@@ -366,15 +366,8 @@ impl KnowledgeBase {
         let rules: Rules = tx.rules()?.into_iter().map(|rule| (rule.rule, rule.name)).collect();
         let sizes = sizes_of(&states::in_force(tx)?);
         let ground = Ground::Later(self.site(), Laid::read(tx, &self.clock())?, sizes, OnceCell::new());
-        let basis = Basis {
-            knowledge: self,
-            graph: &graph,
-            rules: &rules,
-            ground,
-            within: self.within,
-            ends_in,
-            start_facing: None,
-        };
+        let basis =
+            Basis { graph: &graph, rules: &rules, ground, within: self.within, ends_in, start_facing: None };
         let answer = basis.search(goals, answer);
         // nobody waits until all of it is given back
         rayon::spawn(|| drop(graph));

@@ -126,7 +126,6 @@ impl View {
 
     fn basis(&self) -> answer::Basis<'_> {
         answer::Basis {
-            knowledge: &self.site,
             graph: &self.graph,
             rules: &self.inputs.rule_names,
             ground: answer::Ground::Known(&self.world, &self.gauge),

@@ -50,6 +50,10 @@ fn a_load_closes_a_way_and_taking_it_off_opens_it() {
     assert_eq!(site.sqlite3(of_others), others);
     site.adit("undo", &[]).expect_status(0);
     assert_eq!(cost(&site, "cart", "dock", "gate"), before);
+    // an errand's load is as high as one that the table has
+    let errand = ["route", "dock", "gate", "--robot", "cart", "--load", "crate", "--json"];
+    let errand = site.adit(errand[0], &errand[1..]).expecting(1).json();
+    assert_eq!(errand["reason"], reason);
     site.adit("tune", &["loads", "cart/crate", "carried", "2"])
         .expecting(2)
         .complains(&["carried", "0 or 1"]);
