@@ -6,6 +6,7 @@
 mod building;
 mod check;
 mod doors;
+mod doubts;
 mod earth;
 mod geojson;
 mod lif;

@@ -8,7 +8,7 @@ use serde_json::Value;
 use super::earth::Earth;
 use super::{Door, Lane, LaneGraph, Level, Lift, Node, Properties, Wall, doors};
 use crate::geometry::Point;
-use crate::read::{At, Code, Read};
+use crate::read::{At, Code, Read, nearest};
 
 /// From the coordinates of a file to metres.
 enum Place {
@@ -92,6 +92,7 @@ pub(super) fn read(top: &At<'_>) -> Read<LaneGraph> {
     for (name, level) in &levels {
         let elevation = level.maybe_number("elevation")?.unwrap_or(0.0);
         graph.levels.push(Level { level: (*name).to_owned(), elevation, properties: Properties::new() });
+        misspelt(name, level, &mut graph.notes)?;
         let place = &places[*name];
         let vertices = level.list("vertices")?;
         let at = |number: &At<'_>| place.at(&vertices[number.index(vertices.len(), "vertices")?]);
@@ -128,6 +129,20 @@ pub(super) fn read(top: &At<'_>) -> Read<LaneGraph> {
     doors::rides(&mut graph, &graphs);
     graph.types_by_graph(&graphs);
     Ok(graph)
+}
+
+/// Lists of a level that nothing reads, and whose name is close to one that is read.
+fn misspelt(name: &str, level: &At<'_>, notes: &mut Vec<String>) -> Read<()> {
+    const READ: [&str; 4] = ["vertices", "lanes", "walls", "doors"];
+    const KNOWN: [&str; 6] = ["floors", "models", "layers", "fiducials", "features", "measurements"];
+    for (key, _) in
+        level.entries()?.into_iter().filter(|(key, _)| !READ.contains(key) && !KNOWN.contains(key))
+    {
+        if let Some(meant) = nearest(key, &READ) {
+            notes.push(format!("`{key}` of level {name} is not read; did you mean `{meant}`?"));
+        }
+    }
+    Ok(())
 }
 
 /// Says which nodes lie in the cabin of a lift that is not there.

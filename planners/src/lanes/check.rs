@@ -76,6 +76,16 @@ pub fn refuse_wrong(graph: &LaneGraph) -> Result<(), Wrong> {
             );
         }
     }
+    for of in &graph.uses {
+        let (least, most) = (of.min_height.unwrap_or(0.0), of.max_height.unwrap_or(f64::INFINITY));
+        if least > most {
+            let message = format!(
+                "lane `{}` is for {} of {least} m at least and {most} m at most, which no height is",
+                of.lane, of.vehicle_type
+            );
+            return wrong(Code::Impossible, message);
+        }
+    }
     for station in &graph.stations {
         let mut of = station.nodes.split(',').map(str::trim).filter(|node| !node.is_empty());
         if let Some(node) = of.find(|node| !nodes.contains(node)) {

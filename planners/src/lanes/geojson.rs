@@ -14,8 +14,11 @@ pub(super) const LEVEL: &str = "map";
 pub(super) fn read(top: &At<'_>) -> Read<LaneGraph> {
     let mut graph = LaneGraph { name: top.name("name")?.unwrap_or_default(), ..LaneGraph::default() };
     graph.properties = top.rest(&["name", "features", "type"]);
+    if let Some(kind) = top.get("type").filter(|kind| kind.value != "FeatureCollection") {
+        return Err(kind.wrong("`FeatureCollection`"));
+    }
     let (mut others, mut nested, mut high) = (0, 0, 0);
-    let mut bends: Vec<(usize, f64)> = Vec::new();
+    let mut drawn: Vec<(usize, Drawn)> = Vec::new();
     for feature in top.need("features")?.items()? {
         let (properties, geometry) = (feature.need("properties")?, feature.need("geometry")?);
         let kind = geometry.need("type")?.text()?;
@@ -30,7 +33,7 @@ pub(super) fn read(top: &At<'_>) -> Read<LaneGraph> {
                 if let Some(coordinates) = geometry.get("coordinates") {
                     let is_nested = is_nested(&coordinates);
                     nested += usize::from(is_nested != (kind == "MultiLineString"));
-                    bends.push((graph.lanes.len(), length(&coordinates, is_nested)?));
+                    drawn.push((graph.lanes.len(), Drawn::read(&coordinates, is_nested)?));
                 }
                 graph.lanes.push(lane(&properties)?);
             }
@@ -43,7 +46,7 @@ pub(super) fn read(top: &At<'_>) -> Read<LaneGraph> {
         }
     }
     doors::named(&mut graph);
-    bent(&mut graph, &bends);
+    bent(&mut graph, &drawn);
     tell_apart(&mut graph);
     if high > 0 {
         graph.notes.push(format!(
@@ -92,31 +95,58 @@ fn tell_apart(graph: &mut LaneGraph) {
     }
 }
 
-/// Lengths of lines that are longer than straight ones.
-fn bent(graph: &mut LaneGraph, bends: &[(usize, f64)]) {
+/// The line of an edge.
+struct Drawn {
+    /// Metres along it.
+    length: f64,
+    ends: [Point; 2],
+}
+
+/// Lengths of lines that are longer than straight ones. A line that lies elsewhere than its nodes is no way between them.
+fn bent(graph: &mut LaneGraph, drawn: &[(usize, Drawn)]) {
+    let mut elsewhere = Vec::new();
     let at: BTreeMap<&str, Point> = graph.nodes.iter().map(|node| (node.node.as_str(), node.at)).collect();
-    for (lane, length) in bends {
+    for (lane, Drawn { length, ends: line }) in drawn {
         let lane = &mut graph.lanes[*lane];
         let ends = at.get(lane.from.as_str()).zip(at.get(lane.to.as_str()));
-        let Some(straight) = ends.map(|(from, to)| from.distance(*to)) else { continue };
+        let Some((from, to)) = ends else { continue };
+        let straight = from.distance(*to);
+        // an edge that leads back may be drawn as the one that leads there
+        let off = |[one, other]: [Point; 2]| one.distance(*from).max(other.distance(*to));
+        if off(*line).min(off([line[1], line[0]])) > FAR_M.max(FAR * straight) {
+            elsewhere.push(lane.lane.clone());
+            continue;
+        }
         // a drawing's line ends near its nodes rather than at them
         if lane.length.is_none() && *length > 1.02 * straight + 0.05 {
             lane.length = Some(*length);
         }
     }
+    if let Some(first) = elsewhere.first() {
+        graph.notes.push(format!(
+            "edges whose line begins or ends far from their nodes, so that they count as straight: {} (the first is {first})",
+            elsewhere.len()
+        ));
+    }
 }
 
-fn length(coordinates: &At<'_>, is_nested: bool) -> Read<f64> {
-    let lines = if is_nested { coordinates.items()? } else { vec![coordinates.clone()] };
-    let mut sum = 0.0;
-    for line in lines {
-        let points = line.items()?.iter().map(At::point).collect::<Read<Vec<Point>>>()?;
-        if points.len() < 2 {
-            return Err(line.wrong("two points or more"));
+/// So far from its node a line may end: metres, or a part of the straight line between both.
+const FAR_M: f64 = 2.0;
+const FAR: f64 = 0.5;
+
+impl Drawn {
+    fn read(coordinates: &At<'_>, is_nested: bool) -> Read<Self> {
+        let lines = if is_nested { coordinates.items()? } else { vec![coordinates.clone()] };
+        let (mut length, mut ends) = (0.0, None);
+        for line in lines {
+            let points = line.items()?.iter().map(At::point).collect::<Read<Vec<Point>>>()?;
+            let [first, .., last] = points[..] else { return Err(line.wrong("two points or more")) };
+            length += points.windows(2).map(|pair| pair[0].distance(pair[1])).sum::<f64>();
+            ends = Some([ends.map_or(first, |[from, _]: [Point; 2]| from), last]);
         }
-        sum += points.windows(2).map(|pair| pair[0].distance(pair[1])).sum::<f64>();
+        let ends = ends.ok_or_else(|| coordinates.wrong("one line at least"))?;
+        Ok(Self { length, ends })
     }
-    Ok(sum)
 }
 
 /// A number as an id; route graphs have whole ones.

@@ -66,6 +66,7 @@ fn of_top(file: &str, top: &At<'_>) -> Read<LaneGraph> {
         Kind::Lif => lif::read(top)?,
         Kind::TopologicalMap => tmap::read(top)?,
     };
+    graph.note_doubts();
     numbers::fill(&mut graph);
     check::refuse_wrong(&graph).map_err(|wrong| match mentions(top, &wrong.place) {
         Some(at) => at.said(wrong.code, &wrong.message),

@@ -118,6 +118,50 @@ fn a_file_that_cannot_be_is_refused_in_a_sentence() {
     }
 }
 
+/// Words that are close to those that are read, and lines that lie elsewhere than their nodes.
+#[test]
+fn what_a_file_says_by_mistake_is_noted() {
+    const TWO: &str =
+        r#"{"type":"Feature","properties":{"id":2},"geometry":{"type":"Point","coordinates":[5,0]}}"#;
+    let graph = |line: &str, metadata: &str| {
+        let edge = format!(
+            r#"{{"type":"Feature","properties":{{"id":7,"startid":1,"endid":2,"metadata":{metadata}}},"geometry":{{"type":"MultiLineString","coordinates":{line}}}}}"#
+        );
+        route_graph(&format!("{NODE},{TWO},{edge}"))
+    };
+    let straight = "[[[0,0],[5,0]]]";
+    let building = "levels:\n  L1:\n    vertices: [[0, 0, 0, a], [9, 0, 0, b]]\n    lane: [[0, 1, {}]]\n    x_meters: 9\n    y_meters: 9\n";
+    let cases = [
+        (
+            "elsewhere.geojson",
+            graph("[[[100,100],[50,0]]]", "{}"),
+            "far from their nodes, so that they count as straight: 1",
+        ),
+        (
+            "word.geojson",
+            graph(straight, r#"{"sped_limit":50}"#),
+            "`sped_limit`, which stands there once, is not read; did you mean `speed_limit`?",
+        ),
+        ("look.geojson", graph(straight, r#"{"orientation":"forwrd"}"#), "look `forwrd`, which is neither"),
+        ("empty.geojson", route_graph(NODE), "the file has no lanes"),
+        ("list.building.yaml", building.to_owned(), "`lane` of level L1 is not read; did you mean `lanes`?"),
+    ];
+    let site = TestSite::empty();
+    for (name, text, note) in cases {
+        site.write(name, &text);
+        let folder = site.path().join("new");
+        let new =
+            Command::new(adit()).arg("new").arg(&folder).arg("--map").arg(site.path().join(name)).output();
+        Ran::new(&new.unwrap()).expect_status(0);
+        let built = Ran::new(&Command::new(adit()).arg("build").arg(&folder).output().unwrap()).expecting(0);
+        assert!(built.stderr.replace("\n  ", " ").contains(note), "{name}: {}", built.stderr);
+        std::fs::remove_dir_all(folder).unwrap();
+    }
+    site.write("type.geojson", route_graph(NODE).replace("FeatureCollection", "FeatureColection"));
+    let read = Command::new(adit()).arg("build").arg(site.path().join("type.geojson")).output().unwrap();
+    Ran::new(&read).expecting(2).complains(&["type.geojson:1:", "expected `FeatureCollection`"]);
+}
+
 #[test]
 fn wherever_a_file_is_cut_there_is_no_panic() {
     let Some(map) = super::file("lif/example.lif.json") else { return };
