@@ -145,10 +145,15 @@ pub(crate) fn free_areas(world: &World) -> [f64; 2] {
 
 fn check(states: &[State]) -> Result<(), String> {
     let is_length = |metres: f64| metres.is_finite() && metres > 0.0;
-    for State { state, width, length, .. } in states {
+    for State { state, height, width, length, .. } in states {
         if !is_length(*width) {
             return Err(format!(
                 "state `{state}` moves and is {width} m wide; a width is finite and more than 0"
+            ));
+        }
+        if !is_length(*height) {
+            return Err(format!(
+                "state `{state}` moves and is {height} m high; a height is finite and more than 0"
             ));
         }
         if let Some(length) = length.filter(|length| !is_length(*length)) {

@@ -69,6 +69,11 @@ pub fn sizes_of(states: &[State]) -> Sizes {
 }
 
 impl Gauge {
+    /// The sizes of each state of each robot.
+    pub fn sizes(&self) -> &Sizes {
+        &self.sizes
+    }
+
     /// What is solid in the world, for robots of these sizes.
     pub fn new(world: &World, sizes: Sizes) -> Self {
         let obstacles = world.obstacles.iter().map(|obstacle| obstacle.shape.enclosing_rect());

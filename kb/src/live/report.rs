@@ -1,6 +1,6 @@
 //! What a build or an edit made and changed, counted in the expert's own terms.
 
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 use std::sync::Arc;
 
 use adit_db::Cell;
@@ -17,12 +17,13 @@ use adit_planners::read::MapReport;
 use adit_planners::routes::{DoorIndex, RoomIndex};
 use serde::{Serialize, Serializer};
 
+use crate::graph::gauge::Size;
 use crate::graph::itinerary::Itinerary;
 use crate::graph::pairs::PlaceCosts;
 use crate::graph::{End, SiteGraph};
 use crate::knowledge::KnowledgeBase;
 use crate::knowledge::told::Attached;
-use crate::site::lint;
+use crate::site::{Rooms, lint};
 use crate::state::before::Before;
 use crate::state::{State, Weighed};
 use crate::words::number::number;
@@ -433,6 +434,7 @@ impl Report {
         if graph.rooms.is_empty() && state.site.site().has_rooms() {
             notes.push("there is no room: no state of a robot fits anywhere on this map".to_owned());
         } else if weighed.is_none() || graph.places != before.graph.places {
+            notes.extend(unfit_states(state));
             notes.extend(unfit_places(state));
         }
         Self {
@@ -549,6 +551,23 @@ pub fn notes(state: &State) -> Vec<String> {
 
 /// So many places are named.
 const NAMED: usize = 5;
+
+/// The states that move, and fit nowhere on the map, in sentences.
+fn unfit_states(state: &State) -> Vec<String> {
+    if state.site.site().rooms != Rooms::ByState {
+        return Vec::new();
+    }
+    let graph = state.graph();
+    let cut: HashSet<&(String, String)> = graph.rooms.iter().filter_map(|room| room.layer.as_ref()).collect();
+    let robots = graph.robots().len();
+    let unfit = state.gauge.sizes().iter().filter(|(of, size)| size.width > 0.0 && !cut.contains(of));
+    let sentence = |((robot, name), size): (&(String, String), &Size)| {
+        let whose = if robots > 1 { format!(" of robot {robot}") } else { String::new() };
+        let length = size.length.map_or_else(String::new, |length| format!(", {} m long", number(length)));
+        format!("state `{name}`{whose} fits nowhere on this map: it is {} m wide{length}", number(size.width))
+    };
+    unfit.map(sentence).collect()
+}
 
 /// The places at which no state of a robot fits, in sentences.
 pub(crate) fn unfit_places(state: &State) -> Vec<String> {

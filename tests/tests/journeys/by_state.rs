@@ -152,3 +152,18 @@ fn sql_knows_a_way_to_every_room_to_which_the_service_finds_one() {
                  (SELECT round(max(cost), 6) FROM action_sequence WHERE start = 'dock' AND goal = r.goal)";
     assert_eq!(site.sqlite3(steps), ["0"], "the last step of each sequence costs what its route does");
 }
+
+/// Centimetres for metres, most likely: routes go on in other states, and nobody would wonder.
+#[test]
+fn a_state_that_fits_nowhere_is_named() {
+    let site =
+        TestSite::example("starter").with("site.toml", "map = \"map.toml\"\nrobots = \"robots.toml\"\n");
+    let site = site.built();
+    let tuned = site.adit("tune", &["robots", "STAND", "width", "60"]).expecting(0);
+    tuned.complains(&["state `STAND` fits nowhere on this map: it is 60 m wide"]);
+    let undone = site.adit("undo", &[]).expecting(0);
+    assert!(!undone.stderr.contains("fits nowhere"), "{}", undone.stderr);
+    site.adit("tune", &["robots", "STAND", "height", "0"])
+        .expecting(2)
+        .complains(&["state `STAND` moves and is 0 m high"]);
+}
