@@ -1,6 +1,7 @@
 //! One vehicle: what is known of it, and what follows. Nothing here waits or sends: what is to be done is said as effects.
 //! In a circle with the files beside it, which are parts of what follows.
 
+mod cells;
 mod effect;
 mod held;
 mod orders;
@@ -9,10 +10,9 @@ mod telling;
 mod words;
 mod zones;
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
-use serde_json::Value;
-
+use cells::Cells;
 pub use effect::{Clock, Effect};
 
 use crate::given::Given;
@@ -49,7 +49,7 @@ pub struct Driver {
     checks: bool,
     /// Errors on which something was done.
     acted: BTreeSet<String>,
-    written: BTreeMap<String, Value>,
+    cells: Cells,
     /// What was wrong with its last states.
     said: Option<String>,
     /// The zones that it was told, and what could not be told.
@@ -86,7 +86,7 @@ struct Cancel {
 impl Driver {
     pub fn new(row: Vehicle) -> Self {
         Self {
-            written: row.written.clone(),
+            cells: Cells::new(row.written.clone()),
             row,
             link: None,
             version: None,
@@ -117,11 +117,16 @@ impl Driver {
         if self.reached.is_some() && self.reached != row.goal {
             self.reached = None;
         }
-        self.written.clone_from(&row.written);
+        self.cells.read(row.written.clone(), row.answers);
         if row.robot != self.row.robot {
             self.follows = None;
         }
         self.row = row;
+    }
+
+    /// An edit of its row was answered, as the answer of this number.
+    pub fn wrote(&mut self, column: &str, answer: u64) {
+        self.cells.wrote(column, answer);
     }
 
     /// The table is without the goal that was reached.

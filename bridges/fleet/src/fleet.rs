@@ -4,6 +4,8 @@ mod asked;
 mod clock;
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 
 use adit_site::say;
@@ -46,6 +48,8 @@ pub struct Fleet {
     follows: BTreeMap<String, asked::Following>,
     strangers: BTreeSet<String>,
     writers: BTreeMap<String, JoinHandle<()>>,
+    /// How many edits were answered.
+    answers: Arc<AtomicU64>,
     is_up: bool,
     trouble: Option<String>,
     clock: clock::Watch,
@@ -65,6 +69,7 @@ impl Fleet {
             follows: BTreeMap::new(),
             strangers: BTreeSet::new(),
             writers: BTreeMap::new(),
+            answers: Arc::default(),
             is_up: false,
             trouble: None,
             clock: clock::Watch::start(),
@@ -73,7 +78,11 @@ impl Fleet {
 
     /// Runs until nobody speaks any more.
     pub async fn run(mut self, mut hears: UnboundedReceiver<Heard>) {
-        let _events = asked::Kept(tokio::spawn(asked::events(self.site.clone(), self.heard.clone())));
+        let _events = asked::Kept(tokio::spawn(asked::events(
+            self.site.clone(),
+            Arc::clone(&self.answers),
+            self.heard.clone(),
+        )));
         let heard = self.heard.clone();
         let _ticks = asked::Kept(tokio::spawn(async move {
             while heard.send(Heard::Tick).is_ok() {
@@ -148,6 +157,11 @@ impl Fleet {
                 if let Some(driver) = self.drivers.get_mut(&vehicle) {
                     driver.checked(&order, update, holds);
                     return About::One(vehicle);
+                }
+            }
+            Heard::Written { vehicle, column, answer } => {
+                if let Some(driver) = self.drivers.get_mut(&vehicle) {
+                    driver.wrote(column, answer);
                 }
             }
             Heard::Cleared { vehicle } => {
@@ -289,39 +303,45 @@ impl Fleet {
                 });
             }
             Effect::Write { column, value } => {
-                self.write(name, &json!({"column": column, "value": value}), None);
+                self.write(name, &json!({"column": column, "value": value}), move |answer, _| {
+                    Some(Heard::Written { vehicle, column, answer })
+                });
             }
             Effect::Arrived { goal } => {
                 say(&format!("{name} is at {goal}"));
-                self.write(
-                    name,
-                    &json!({"column": "goal", "value": Value::Null, "old": goal}),
-                    Some(Heard::Cleared { vehicle }),
-                );
+                let cell = json!({"column": "goal", "value": Value::Null, "old": goal});
+                self.write(name, &cell, |_, is_done| is_done.then_some(Heard::Cleared { vehicle }));
             }
         }
     }
 
-    /// One edit of the vehicle's row after the other.
-    fn write(&mut self, name: &str, cell: &Value, then: Option<Heard>) {
+    /// One edit of the vehicle's row after the other; `then` is given the number of its answer, and whether it was done.
+    fn write(
+        &mut self,
+        name: &str,
+        cell: &Value,
+        then: impl FnOnce(u64, bool) -> Option<Heard> + Send + 'static,
+    ) {
         let (site, heard, vehicle) = (self.site.clone(), self.heard.clone(), name.to_owned());
         let mut edit = json!({"kind": "set", "table": VEHICLES, "key": name});
         if let (Some(edit), Some(cell)) = (edit.as_object_mut(), cell.as_object()) {
             edit.extend(cell.clone());
         }
         let body = json!({"edit": edit, "why": asked::SAID});
+        let answers = Arc::clone(&self.answers);
         let before = self.writers.remove(name);
         let task = tokio::spawn(async move {
             if let Some(before) = before {
                 let _ = before.await;
             }
-            match (site.post("/api/edits", &body).await, then) {
-                (Ok(_), Some(then)) => drop(heard.send(then)),
-                (Ok(_), None) => {}
-                (Err(trouble), _) => {
-                    let words = format!("{vehicle}: its row cannot be written: {trouble}");
-                    let _ = heard.send(Heard::Said(words));
-                }
+            let done = site.post("/api/edits", &body).await;
+            let answer = answers.fetch_add(1, Ordering::SeqCst) + 1;
+            if let Err(trouble) = &done {
+                let words = format!("{vehicle}: its row cannot be written: {trouble}");
+                let _ = heard.send(Heard::Said(words));
+            }
+            if let Some(then) = then(answer, done.is_ok()) {
+                let _ = heard.send(then);
             }
         });
         self.writers.insert(name.to_owned(), task);

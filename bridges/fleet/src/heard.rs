@@ -36,6 +36,12 @@ pub enum Heard {
         update: u32,
         holds: bool,
     },
+    /// An edit of a cell of its row was answered, as the answer of this number.
+    Written {
+        vehicle: String,
+        column: &'static str,
+        answer: u64,
+    },
     /// The goal that was reached is out of the table.
     Cleared {
         vehicle: String,

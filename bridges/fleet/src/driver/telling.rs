@@ -60,12 +60,9 @@ impl Driver {
             }
         }
         for (column, value) in values {
-            let Some(known) = self.written.get_mut(column) else { continue };
-            if words::is_same(known, &value) {
-                continue;
+            if self.cells.takes(column, &value) {
+                effects.push(Effect::Write { column, value });
             }
-            known.clone_from(&value);
-            effects.push(Effect::Write { column, value });
         }
     }
 }

@@ -1,7 +1,5 @@
 //! What vehicles report, in words.
 
-use serde_json::Value;
-
 use crate::wire::{Fault, Report};
 
 /// An error in a sentence.
@@ -31,14 +29,4 @@ pub fn refusal(report: &Report, order: &str, update: u32) -> Option<String> {
             && refers(fault, "actionStatus", "FAILED") != Some(true)
     });
     of_order.map(error)
-}
-
-/// Whether a cell says this: truth values may be kept as numbers.
-pub fn is_same(cell: &Value, value: &Value) -> bool {
-    match (cell, value) {
-        (Value::Null, Value::String(text)) => text.is_empty(),
-        (Value::Number(a), Value::Number(b)) => a.as_f64() == b.as_f64(),
-        (Value::Number(number), Value::Bool(truth)) => number.as_f64() == Some(f64::from(u8::from(*truth))),
-        _ => cell == value,
-    }
 }

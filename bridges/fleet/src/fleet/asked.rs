@@ -1,5 +1,6 @@
 //! What is asked of the site, beside: routes that are followed, events, tables.
 
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
@@ -174,9 +175,9 @@ pub async fn holds(site: &Site, along: &Along) -> Option<bool> {
 }
 
 /// Hears of changes; tables are read after each, and once in a while of a service that says nothing.
-pub async fn events(site: Site, heard: UnboundedSender<Heard>) {
+pub async fn events(site: Site, answers: Arc<AtomicU64>, heard: UnboundedSender<Heard>) {
     let changed = Arc::new(tokio::sync::Notify::new());
-    let _reader = Kept(tokio::spawn(read(site.clone(), Arc::clone(&changed), heard.clone())));
+    let _reader = Kept(tokio::spawn(read(site.clone(), answers, Arc::clone(&changed), heard.clone())));
     while !heard.is_closed() {
         changed.notify_one();
         let ended = site.hear("/api/events", |event, data| match event {
@@ -200,12 +201,21 @@ pub async fn events(site: Site, heard: UnboundedSender<Heard>) {
     }
 }
 
-async fn read(site: Site, changed: Arc<tokio::sync::Notify>, heard: UnboundedSender<Heard>) {
+async fn read(
+    site: Site,
+    answers: Arc<AtomicU64>,
+    changed: Arc<tokio::sync::Notify>,
+    heard: UnboundedSender<Heard>,
+) {
     let mut layout = None;
     loop {
         changed.notified().await;
+        let answered = answers.load(Ordering::SeqCst);
         let tables = match site.get("/api/tables").await {
-            Ok(answer) => Tables::read(&answer),
+            Ok(answer) => Tables::read(&answer).map(|mut tables| {
+                tables.vehicles.iter_mut().for_each(|row| row.answers = answered);
+                tables
+            }),
             Err(trouble) => Err(trouble.to_string()),
         };
         let _ = heard.send(Heard::Tables(tables));

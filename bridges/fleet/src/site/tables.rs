@@ -48,6 +48,8 @@ pub struct Vehicle {
     pub map: Option<String>,
     /// Where it is to go.
     pub goal: Option<String>,
+    /// How many edits of this program had been answered when the table was asked for.
+    pub answers: u64,
     /// What is written in it now.
     pub written: BTreeMap<String, Value>,
 }
@@ -123,6 +125,7 @@ impl Fleet {
                 map: text(&row, "map"),
                 goal: text(&row, "goal"),
                 name: key,
+                answers: 0,
                 written: row,
             });
         }
