@@ -257,7 +257,7 @@ impl Driver {
 /// A vehicle at one moment.
 struct Now<'a, 'w> {
     report: &'a Report,
-    /// Why nothing more is released to it.
+    /// Why nothing is sent to it but a stop.
     held: Option<&'a str>,
     to: &'a Addressee,
     world: &'a World<'w>,

@@ -1,4 +1,4 @@
-//! Why nothing more is released to a vehicle.
+//! Why nothing is sent to a vehicle.
 
 use super::words;
 use crate::site::Fleet;
@@ -21,6 +21,13 @@ pub fn why(
     }
     if !matches!(report.operating_mode.as_str(), "AUTOMATIC" | "SEMIAUTOMATIC" | "") {
         return Some(format!("its operating mode is {}", report.operating_mode));
+    }
+    // what a bumper or a protective field set off (AUTOACK) ends by itself
+    if !matches!(report.safety.emergency_stop.as_str(), "NONE" | "AUTOACK" | "") {
+        return Some(format!("it is stopped by its emergency stop ({})", report.safety.emergency_stop));
+    }
+    if report.paused {
+        return Some("it is paused".to_owned());
     }
     let stopping =
         report.errors.iter().find(|error| fleet.meaning(&error.error_type, &error.error_level).stops);

@@ -65,8 +65,13 @@ impl Driver {
             effects.push(Effect::Arrived { goal: goal.to_owned() });
             return format!("at {goal}");
         }
-        self.follow(goal, sent.order.base_end().at, effects);
         let end = sent.order.base_end().at;
+        self.follow(goal, end, effects);
+        // it keeps what it has, and goes on with the newest way
+        if let Some(held) = now.held {
+            self.given = Some(sent);
+            return format!("waits: {held}");
+        }
         let heard = self.route.take_if(|route| starts_at(route, end));
         // of what the vehicle is let through nothing is taken that was heard a while ago
         let fresh = self.fresh.take_if(|route| starts_at(route, end));
@@ -86,7 +91,7 @@ impl Driver {
         }
         let way = route.map(|route| self.stops(&route, now));
         let asks = left <= world.margins.ahead + SAME || report.new_base_request;
-        let grows = asks && now.held.is_none() && !sent.order.is_whole();
+        let grows = asks && !sent.order.is_whole();
         if grows && !is_fresh && self.asks.is_none_or(|since| world.clock.seconds - since > AGAIN) {
             self.asks = Some(world.clock.seconds);
             let (goal, robot) = (goal.to_owned(), self.row.robot.clone());
@@ -102,7 +107,7 @@ impl Driver {
             }
         }
         self.given = Some(sent);
-        now.held.map_or_else(|| format!("drives to {goal}"), |held| format!("waits: {held}"))
+        format!("drives to {goal}")
     }
 
     /// What a state says of how far it is in its order.
@@ -143,6 +148,10 @@ impl Driver {
             }
             self.given = Some(sent);
             return self.cancel(&words, now, effects);
+        }
+        if let Some(held) = now.held {
+            self.given = Some(sent);
+            return format!("waits: {held}");
         }
         if seconds - sent.at >= AGAIN {
             sent.at = seconds;

@@ -38,6 +38,8 @@ pub struct Report {
     pub operating_mode: String,
     #[serde(default, deserialize_with = "or_default")]
     pub errors: Vec<Fault>,
+    #[serde(default, alias = "safetyState", deserialize_with = "or_default")]
+    pub safety: Safety,
 }
 
 /// A node or an edge that is left of an order.
@@ -73,6 +75,14 @@ pub struct Battery {
     /// Per cent.
     #[serde(alias = "batteryCharge", alias = "stateOfCharge")]
     pub charge: f64,
+}
+
+#[derive(Clone, Debug, Default, Deserialize, PartialEq)]
+#[serde(rename_all = "camelCase")]
+pub struct Safety {
+    /// How its emergency stop is released; `NONE` where it is not on.
+    #[serde(default, alias = "eStop", alias = "activeEmergencyStop", deserialize_with = "or_default")]
+    pub emergency_stop: String,
 }
 
 /// An error that a vehicle reports.

@@ -1,7 +1,7 @@
 //! One vehicle and what is decided for it, without a broker and without a site.
 
 use adit_fleet::driver::{Clock, Driver, Effect, World};
-use adit_fleet::site::{Fleet, Vehicle};
+use adit_fleet::site::{Fleet, Route, Vehicle, Waypoint};
 use adit_fleet::way::Margins;
 use adit_fleet::wire;
 use serde_json::{Value, json};
@@ -14,7 +14,11 @@ pub struct Alone {
     pub fleet: Fleet,
     /// What it says next.
     pub state: Value,
+    pub doing: String,
+    pub log: Vec<String>,
+    pub orders: Vec<Value>,
     pub writes: Vec<(&'static str, Value)>,
+    pub follows: Option<(u64, [f64; 2])>,
     seconds: f64,
 }
 
@@ -31,7 +35,17 @@ impl Alone {
             "safetyState": {"eStop": "NONE", "fieldViolation": false},
             "agvPosition": {"x": 1.0, "y": 1.0, "theta": 0.0, "mapId": "m", "positionInitialized": true},
         });
-        Self { driver: Driver::new(row), fleet, state, writes: Vec::new(), seconds: 0.0 }
+        Self {
+            driver: Driver::new(row),
+            fleet,
+            state,
+            doing: String::new(),
+            log: Vec::new(),
+            orders: Vec::new(),
+            writes: Vec::new(),
+            follows: None,
+            seconds: 0.0,
+        }
     }
 
     /// It says its state, and a second goes by; what follows.
@@ -54,10 +68,51 @@ impl Alone {
         };
         let effects = self.driver.think(&world);
         for effect in &effects {
-            if let Effect::Write { column, value } = effect {
-                self.writes.push((column, value.clone()));
+            match effect {
+                Effect::Say(words) => self.log.push(words.clone()),
+                Effect::Send { topic: "order", message, .. } => self.orders.push(message.clone()),
+                Effect::Follow { epoch, start, .. } => self.follows = Some((*epoch, *start)),
+                Effect::Write { column, value } => {
+                    if *column == "doing" {
+                        value.as_str().unwrap().clone_into(&mut self.doing);
+                    }
+                    self.writes.push((column, value.clone()));
+                }
+                _ => {}
             }
         }
         effects
+    }
+
+    /// The way that it asked for leads along these points.
+    pub fn led(&mut self, points: &[[f64; 2]]) {
+        let (epoch, [x, y]) = self.follows.unwrap();
+        let waypoints = points.iter().map(|at| Waypoint {
+            x: at[0],
+            y: at[1],
+            state: Some("LOW".to_owned()),
+            clearance: Some(0.05),
+            ..Waypoint::default()
+        });
+        let route = Route {
+            status: "ok".to_owned(),
+            start: format!("{x},{y}"),
+            goal: "gate".to_owned(),
+            waypoints: waypoints.collect(),
+            ..Route::default()
+        };
+        self.driver.routed(epoch, route);
+    }
+
+    /// It takes its order, and stands at its first node.
+    pub fn takes_its_order(&mut self) {
+        let order = self.orders.last().unwrap().clone();
+        for key in ["orderId", "orderUpdateId"] {
+            self.state[key] = order[key].clone();
+        }
+        let nodes = order["nodes"].as_array().unwrap();
+        self.state["lastNodeId"] = nodes[0]["nodeId"].clone();
+        self.state["nodeStates"] =
+            nodes[1..].iter().map(|node| json!({"sequenceId": node["sequenceId"]})).collect();
     }
 }

@@ -9,5 +9,6 @@ mod malformed;
 mod messages;
 mod rows;
 mod storm;
+mod waits;
 mod yard;
 mod zones;

@@ -1,0 +1,82 @@
+//! What keeps a vehicle from driving is said, and nothing is sent to it meanwhile.
+
+use adit_fleet::site::Vehicle;
+use serde_json::json;
+
+use crate::alone::Alone;
+
+const WAY: [[f64; 2]; 2] = [[1.0, 1.0], [9.0, 1.0]];
+
+/// Ways for a vehicle to be stopped, with what is said of it.
+fn stops() -> Vec<(&'static str, serde_json::Value, &'static str)> {
+    let manual = "waits: it is stopped by its emergency stop (MANUAL)";
+    let remote = "waits: it is stopped by its emergency stop (REMOTE)";
+    vec![
+        ("safetyState", json!({"eStop": "MANUAL", "fieldViolation": false}), manual),
+        ("safetyState", json!({"activeEmergencyStop": "REMOTE", "fieldViolation": false}), remote),
+        ("paused", json!(true), "waits: it is paused"),
+    ]
+}
+
+#[test]
+fn a_vehicle_that_is_stopped_keeps_its_order_and_hears_of_no_other_until_it_is_released() {
+    for (key, value, words) in stops() {
+        let mut alone = Alone::new();
+        alone.says();
+        alone.led(&WAY);
+        alone.says();
+        alone.takes_its_order();
+        alone.says();
+        assert_eq!((alone.orders.len(), alone.doing.as_str()), (1, "drives to gate"));
+        let free = std::mem::replace(&mut alone.state[key], value);
+        alone.driver.read(Vehicle { goal: Some("shelf".to_owned()), ..alone.driver.row.clone() });
+        for _ in 0..20 {
+            alone.says();
+        }
+        alone.led(&[WAY[1], [9.0, 5.0]]);
+        alone.says();
+        assert_eq!((alone.orders.len(), alone.doing.as_str()), (1, words));
+        alone.state[key] = free;
+        alone.says();
+        assert_eq!((alone.orders.len(), alone.doing.as_str()), (2, "drives to shelf"));
+        assert_eq!(alone.orders[1]["orderId"], alone.orders[0]["orderId"], "the same order goes on");
+    }
+}
+
+#[test]
+fn a_vehicle_that_is_stopped_gets_no_order() {
+    for (key, value, words) in stops() {
+        let mut alone = Alone::new();
+        let free = std::mem::replace(&mut alone.state[key], value);
+        alone.says();
+        assert_eq!((alone.follows, alone.doing.as_str()), (None, words));
+        alone.state[key] = free;
+        alone.says();
+        alone.led(&WAY);
+        alone.says();
+        assert_eq!(alone.orders.len(), 1);
+    }
+}
+
+#[test]
+fn an_order_that_was_not_taken_is_not_said_again_to_a_vehicle_that_is_stopped() {
+    for (key, value, words) in stops() {
+        let mut alone = Alone::new();
+        alone.says();
+        alone.led(&WAY);
+        alone.says();
+        alone.state[key] = value;
+        for _ in 0..20 {
+            alone.says();
+        }
+        assert_eq!((alone.orders.len(), alone.doing.as_str()), (1, words));
+    }
+}
+
+#[test]
+fn a_stop_that_ends_by_itself_is_none() {
+    let mut alone = Alone::new();
+    alone.state["safetyState"]["eStop"] = json!("AUTOACK");
+    alone.says();
+    assert_eq!(alone.doing, "asks for the way to gate");
+}
