@@ -7,6 +7,9 @@ use crate::site::{Area, Route};
 /// How near two points are one, metres.
 pub const SAME: f64 = 0.02;
 
+/// A way of so many metres is none, whatever is beside it.
+const NO_WAY: f64 = 1e-3;
+
 /// Metres that a body of this width keeps from a doorway before it is let through, beside half its width.
 pub struct Margins {
     /// Beyond the robot's rim.
@@ -191,16 +194,33 @@ impl Line {
         best.1
     }
 
+    /// The waypoints. One that is but a step from the one before is left out where there is room for the vehicle to go straight
+    /// by: nobody drives to and fro by a centimetre.
     fn bends(&self, route: &Route) -> Vec<Mark> {
         let mut marks: Vec<Mark> = Vec::new();
+        // what is beside the leg that was left out, less what the way is moved by
+        let mut beside: Option<f64> = None;
         for (index, point) in route.waypoints.iter().enumerate() {
             let next = route.waypoints.get(index + 1);
             let becomes = next.filter(|next| next.state != point.state).and_then(|next| next.state.clone());
-            let same = marks.last_mut().filter(|mark| self.s[index] - mark.s <= 1e-6);
-            // several changes at one point are one
-            if let Some(mark) = same {
-                mark.stop.becomes = becomes.or(mark.stop.becomes.take());
-                continue;
+            let (count, room) = (marks.len(), point.clearance);
+            if let Some(mark) = marks.last_mut() {
+                let step = self.s[index] - mark.s;
+                let is_roomy = [room, next.map_or(room, |next| next.clearance)]
+                    .iter()
+                    .all(|room| room.is_some_and(|room| room > SAME));
+                let is_bend = mark.stop.becomes.is_none() && becomes.is_none();
+                if step <= NO_WAY || step < SAME && is_roomy && is_bend && (next.is_some() || count > 1) {
+                    // several changes at one point are one
+                    mark.stop.becomes = becomes.or(mark.stop.becomes.take());
+                    beside = least(beside, room.map(|room| room - step));
+                    // the goal is where it was said to be
+                    if next.is_none() && count > 1 {
+                        (mark.s, mark.stop.at) = (self.s[index], [point.x, point.y]);
+                        mark.stop.clearance = least(mark.stop.clearance, beside);
+                    }
+                    continue;
+                }
             }
             let before = index.checked_sub(1).map(|before| self.points[before]);
             let heading = before.map(|a| (point.y - a[1]).atan2(point.x - a[0]));
@@ -208,7 +228,7 @@ impl Line {
                 at: [point.x, point.y],
                 state: point.state.clone(),
                 facing: point.facing.map(|facing| along(facing, heading)),
-                clearance: point.clearance,
+                clearance: least(room, beside.take()),
                 becomes,
                 ..Stop::default()
             };
@@ -287,6 +307,11 @@ impl Line {
             self.add(marks, s, Stop { words, is_wait: true, ..Stop::default() }, route);
         }
     }
+}
+
+/// The lesser of what is known.
+fn least(one: Option<f64>, other: Option<f64>) -> Option<f64> {
+    one.into_iter().chain(other).min_by(f64::total_cmp)
 }
 
 /// Of the two directions in which a body may lie, the one that is nearer to where it goes.

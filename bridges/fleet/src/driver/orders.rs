@@ -197,8 +197,19 @@ impl Driver {
         let Some(first) = stops.first_mut() else {
             return format!("no way to {goal}: its route has no points");
         };
-        // where it stands no state fits: it begins beside
-        first.deviation = Some(distance(first.at, at)).filter(|off| *off > SAME);
+        // where it stands no state fits: it begins beside, where that is near enough
+        let off = distance(first.at, at);
+        if self.is_inside(off, first.state.as_deref(), now) {
+            if self.follows.as_ref().is_some_and(|follows| distance(follows.start, at) > SAME) {
+                self.follows = None;
+            }
+            self.route = Some(route);
+            return format!(
+                "waits: it stands where it does not fit; the nearest point at which it does is {off:.2} m away"
+            );
+        }
+        // rounded up, so that it is within
+        first.deviation = Some((off * 100.0).ceil() / 100.0).filter(|off| *off > SAME);
         self.orders += 1;
         let id = format!("{OURS}{} {} {}", self.row.name, world.clock.words, self.orders);
         let order = Given::new(id, goal.to_owned(), (self.map(world), self.robot(world)), stops);
@@ -220,6 +231,14 @@ impl Driver {
         };
         let floor = Floor { bridges: now.world.bridges, areas: now.world.areas };
         stops(route, body, now.world.margins, floor)
+    }
+
+    /// Whether a body whose nearest place is so far off has its middle in what is solid: nearer than half its width to a wall
+    /// it may come by how exactly it knows where it is, and by how tightly it is parked.
+    fn is_inside(&self, off: f64, state: Option<&str>, now: &Now<'_, '_>) -> bool {
+        let fleet = now.world.fleet;
+        let body = state.and_then(|state| fleet.state(&self.robot(now.world), state));
+        body.is_some_and(|body| off > body.width / 2.0 + SAME)
     }
 
     /// The way is asked for from where the base ends.

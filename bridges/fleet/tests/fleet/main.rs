@@ -10,5 +10,6 @@ mod messages;
 mod rows;
 mod storm;
 mod waits;
+mod ways;
 mod yard;
 mod zones;

@@ -74,6 +74,28 @@ fn an_order_that_was_not_taken_is_not_said_again_to_a_vehicle_that_is_stopped() 
 }
 
 #[test]
+fn a_vehicle_inside_of_a_wall_gets_no_order_and_one_that_is_parked_tightly_does() {
+    // it is 0.7 m wide
+    let mut alone = Alone::new();
+    alone.says();
+    alone.led(&[[1.4, 1.0], [9.0, 1.0]]);
+    for _ in 0..3 {
+        alone.says();
+    }
+    let words = "waits: it stands where it does not fit; the nearest point at which it does is 0.40 m away";
+    assert_eq!((alone.orders.len(), alone.doing.as_str()), (0, words));
+    // it is somewhere else by a little, and asks anew
+    alone.state["agvPosition"]["x"] = json!(0.95);
+    alone.says();
+    alone.says();
+    assert_eq!(alone.follows.map(|(_, start)| start[0].to_string()).unwrap(), "0.95");
+    alone.led(&[[1.254, 1.0], [9.0, 1.0]]);
+    alone.says();
+    let start = &alone.orders[0]["nodes"][0]["nodePosition"];
+    assert_eq!(start["allowedDeviationXY"], 0.31, "{start:#}");
+}
+
+#[test]
 fn a_stop_that_ends_by_itself_is_none() {
     let mut alone = Alone::new();
     alone.state["safetyState"]["eStop"] = json!("AUTOACK");
