@@ -86,6 +86,22 @@ impl Given {
         ahead.map(|stop| distance(std::mem::replace(&mut at, stop.at), stop.at)).sum()
     }
 
+    /// In which direction the way has led on from a point after so many metres, radians; what it does nearer by says nothing of
+    /// what is ahead.
+    pub fn heading(&self, reached: usize, from: [f64; 2], metres: f64) -> Option<f64> {
+        let (mut at, mut left) = (from, metres);
+        for stop in self.stops.iter().skip(reached + 1) {
+            let leg = distance(at, stop.at);
+            if leg >= left {
+                let share = left / leg;
+                at = [0, 1].map(|axis| at[axis] + share * (stop.at[axis] - at[axis]));
+                break;
+            }
+            (at, left) = (stop.at, left - leg);
+        }
+        (distance(from, at) > SAME).then(|| (at[1] - from[1]).atan2(at[0] - from[0]))
+    }
+
     /// The doorways that are released and not yet passed.
     pub fn doorways_ahead(&self, reached: usize) -> Vec<String> {
         let ahead = self.stops[..self.released].iter().skip(reached + 1);

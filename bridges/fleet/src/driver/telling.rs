@@ -6,6 +6,9 @@ use serde_json::Value;
 
 use super::{Driver, Effect, Now, words};
 
+/// What blocks a vehicle is so far ahead on its way where nobody knows how large it is, metres.
+const REACH: f64 = 0.5;
+
 impl Driver {
     /// What errors mean is done once each time that they come.
     pub(super) fn act_on_errors(&mut self, now: &Now<'_, '_>, effects: &mut Vec<Effect>) {
@@ -24,10 +27,9 @@ impl Driver {
             if report.driving || !self.acted.insert(error.error_type.clone()) {
                 continue;
             }
-            let ahead = self.given.as_ref().and_then(|sent| {
-                let next = sent.order.stops.get(sent.reached + 1)?;
-                Some((next.at[1] - at.y).atan2(next.at[0] - at.x))
-            });
+            let reach = world.fleet.breadth(&self.robot(world)).unwrap_or(REACH);
+            let ahead = self.given.as_ref();
+            let ahead = ahead.and_then(|sent| sent.order.heading(sent.reached, [at.x, at.y], reach));
             let only = (!meaning.for_all).then(|| self.row.robot.clone()).flatten();
             effects.push(Effect::Block {
                 at: [at.x, at.y],

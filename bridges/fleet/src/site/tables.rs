@@ -146,6 +146,12 @@ impl Fleet {
         self.states.keys().next().cloned().unwrap_or_default()
     }
 
+    /// How large a robot is in its largest state, metres.
+    pub fn breadth(&self, robot: &str) -> Option<f64> {
+        let states = self.states.get(robot)?.iter();
+        states.map(|state| state.width.max(state.length.unwrap_or(0.0))).max_by(f64::total_cmp)
+    }
+
     /// A state of a robot.
     pub fn state(&self, robot: &str, state: &str) -> Option<&State> {
         self.states.get(robot)?.iter().find(|known| known.state == state)

@@ -1,5 +1,6 @@
 //! What keeps a vehicle from driving is said, and nothing is sent to it meanwhile.
 
+use adit_fleet::driver::Effect;
 use adit_fleet::site::Vehicle;
 use serde_json::json;
 
@@ -93,6 +94,33 @@ fn a_vehicle_inside_of_a_wall_gets_no_order_and_one_that_is_parked_tightly_does(
     alone.says();
     let start = &alone.orders[0]["nodes"][0]["nodePosition"];
     assert_eq!(start["allowedDeviationXY"], 0.31, "{start:#}");
+}
+
+#[test]
+fn what_is_closed_lies_where_the_way_leads_and_not_where_its_first_step_does() {
+    let headings = |way: &[[f64; 2]]| {
+        let mut alone = Alone::new();
+        alone.says();
+        alone.led(way);
+        alone.says();
+        alone.takes_its_order();
+        alone.says();
+        alone.state["errors"] = json!([{"errorType": "blocked", "errorLevel": "WARNING"}]);
+        let blocked = alone.says().into_iter().find_map(|effect| match effect {
+            Effect::Block { heading, .. } => Some(heading),
+            _ => None,
+        });
+        blocked.unwrap()
+    };
+    // a step of 4 cm to the east, then to the west
+    let heading = headings(&[[1.0, 1.0], [1.04, 1.0], [0.9, 1.0], [-5.0, 1.0]]);
+    assert!((heading - 180.0).abs() < 1e-6, "{heading}");
+    // around a corner that is nearer than the vehicle is large
+    let heading = headings(&[[1.0, 1.0], [1.1, 1.0], [1.1, 6.0]]);
+    assert!((60.0..90.0).contains(&heading), "{heading}");
+    // a way that is shorter
+    let heading = headings(&[[1.0, 1.0], [1.0, 0.8]]);
+    assert!((heading - 270.0).abs() < 1e-6, "{heading}");
 }
 
 #[test]
