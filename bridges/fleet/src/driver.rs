@@ -50,8 +50,8 @@ pub struct Driver {
     /// Errors on which something was done.
     acted: BTreeSet<String>,
     cells: Cells,
-    /// What was wrong with its last states.
-    said: Option<String>,
+    /// What is wrong with what it says, and was said in the log.
+    said: BTreeSet<About>,
     /// The zones that it was told, and what could not be told.
     zones: Option<(String, Vec<String>)>,
     heads: [u32; 3],
@@ -104,7 +104,7 @@ impl Driver {
             is_broken: false,
             checks: false,
             acted: BTreeSet::new(),
-            said: None,
+            said: BTreeSet::new(),
             zones: None,
             heads: [0; 3],
             epoch: 0,
@@ -218,8 +218,15 @@ impl Driver {
             serial: self.row.serial.clone(),
         };
         let (robot, map) = (self.robot(world), self.map(world));
-        let held = held::why(&report, self.factsheet.as_ref(), (&robot, &map), world.fleet);
-        let now = Now { report: &report, held: held.as_deref(), to: &to, world };
+        let off = held::off_the_map(&report, &map, world.bounds);
+        let at = report.position.as_ref();
+        let lost = at
+            .filter(|_| off.is_some())
+            .map(|at| format!("says that it is at {:.2},{:.2}, off the map", at.x, at.y));
+        self.remark(About::Place, lost, effects);
+        let is_placed = off.is_none() && at.is_none_or(|at| at.localized);
+        let held = off.or_else(|| held::why(&report, self.factsheet.as_ref(), (&robot, &map), world.fleet));
+        let now = Now { report: &report, held: held.as_deref(), is_placed, to: &to, world };
         self.act_on_errors(&now, effects);
         self.tell_zones(&now, effects);
         if self.is_cancelling(&now, effects) {
@@ -243,6 +250,17 @@ impl Driver {
         }
     }
 
+    /// Says in the log what is wrong with what it says, once as long as it is so.
+    fn remark(&mut self, about: About, words: Option<String>, effects: &mut Vec<Effect>) {
+        let Some(words) = words else {
+            self.said.remove(&about);
+            return;
+        };
+        if self.said.insert(about) {
+            effects.push(Effect::Say(format!("{} {words}", self.row.name)));
+        }
+    }
+
     /// Whose routes it drives.
     fn robot(&self, world: &World<'_>) -> String {
         self.row.robot.clone().unwrap_or_else(|| world.fleet.only_robot())
@@ -254,11 +272,20 @@ impl Driver {
     }
 }
 
+/// What may be wrong with what a vehicle says.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum About {
+    Node,
+    Place,
+}
+
 /// A vehicle at one moment.
 struct Now<'a, 'w> {
     report: &'a Report,
     /// Why nothing is sent to it but a stop.
     held: Option<&'a str>,
+    /// Whether where it says that it is says where it is.
+    is_placed: bool,
     to: &'a Addressee,
     world: &'a World<'w>,
 }
@@ -269,6 +296,8 @@ pub struct World<'a> {
     pub margins: &'a Margins,
     pub bridges: &'a [Bridge],
     pub areas: &'a [Area],
+    /// How far the map goes: x0, y0, x1, y1, metres; `None` where nobody says.
+    pub bounds: Option<[f64; 4]>,
     /// How vehicles call the map, unless their rows say otherwise.
     pub map: &'a str,
     pub clock: &'a Clock,

@@ -43,6 +43,7 @@ pub struct Fleet {
     heard: UnboundedSender<Heard>,
     tables: Tables,
     bridges: Vec<Bridge>,
+    bounds: Option<[f64; 4]>,
     areas: Vec<Area>,
     drivers: BTreeMap<String, Driver>,
     follows: BTreeMap<String, asked::Following>,
@@ -64,6 +65,7 @@ impl Fleet {
             heard,
             tables: Tables::default(),
             bridges: Vec::new(),
+            bounds: None,
             areas: Vec::new(),
             drivers: BTreeMap::new(),
             follows: BTreeMap::new(),
@@ -129,7 +131,7 @@ impl Fleet {
                     self.trouble = Some(why);
                 }
             }
-            Heard::Bridges(bridges) => self.bridges = bridges,
+            Heard::Map(bridges, bounds) => (self.bridges, self.bounds) = (bridges, bounds),
             Heard::Areas(areas) => {
                 self.areas = areas;
                 return About::All;
@@ -239,6 +241,7 @@ impl Fleet {
             margins: &self.settings.margins,
             bridges: &self.bridges,
             areas: &self.areas,
+            bounds: self.bounds,
             map: &self.settings.map,
             clock: &clock,
         };

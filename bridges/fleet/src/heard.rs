@@ -11,8 +11,8 @@ pub enum Heard {
     Message(String, Vec<u8>),
     /// The site's tables, or why they are not to be had.
     Tables(Result<Tables, String>),
-    /// What is low over the floor.
-    Bridges(Vec<Bridge>),
+    /// What is low over the floor, and how far the map goes.
+    Map(Vec<Bridge>, Option<[f64; 4]>),
     Areas(Vec<Area>),
     /// Something of the floor is another one.
     Floor,

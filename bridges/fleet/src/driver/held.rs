@@ -37,6 +37,20 @@ pub fn why(
     too_large(factsheet?, robot, fleet)
 }
 
+/// Metres beyond the map's edge at which a vehicle may take itself to be.
+const STRAY: f64 = 0.5;
+
+/// Whether nothing can be told from where it says that it is; in words where that is off the map, and the vehicle means this one.
+pub fn off_the_map(report: &Report, map: &str, bounds: Option<[f64; 4]>) -> Option<String> {
+    let (at, [x0, y0, x1, y1]) = (report.position.as_ref()?, bounds?);
+    let is_of_map = at.localized && (at.map_id.is_empty() || at.map_id == map);
+    let is_off = at.x < x0 - STRAY || at.x > x1 + STRAY || at.y < y0 - STRAY || at.y > y1 + STRAY;
+    (is_of_map && is_off).then(|| {
+        let [x0, y0, x1, y1] = [x0, y0, x1, y1].map(|metres| (metres * 100.0).round() / 100.0);
+        format!("it says that it is off the map, which goes from {x0},{y0} to {x1},{y1}")
+    })
+}
+
 /// What the maker says of its body does not fit the robot whose routes it drives.
 fn too_large(factsheet: &Factsheet, robot: &str, fleet: &Fleet) -> Option<String> {
     let body = factsheet.body?;

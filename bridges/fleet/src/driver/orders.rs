@@ -1,6 +1,6 @@
 //! Orders: begun, grown, led another way. In a circle with the vehicle's file, of which it is a part.
 
-use super::{AGAIN, Driver, Effect, Follows, Now, Sent, words};
+use super::{AGAIN, About, Driver, Effect, Follows, Now, Sent, words};
 use crate::given::Given;
 use crate::site::Route;
 use crate::way::{Body, Floor, SAME, Stop, distance, stops};
@@ -43,7 +43,7 @@ impl Driver {
         }
         let at = report.position.as_ref().map_or(sent.order.base_end().at, |at| [at.x, at.y]);
         let left = sent.order.left(sent.reached, at);
-        if std::mem::take(&mut self.checks) && left > MOVED {
+        if now.is_placed && std::mem::take(&mut self.checks) && left > MOVED {
             effects.push(Effect::Check {
                 order: sent.order.id.clone(),
                 update: sent.order.update,
@@ -116,15 +116,15 @@ impl Driver {
         sent.is_known |= report.order_update_id == sent.order.update;
         let (sequence, node) = (report.last_node_sequence_id, report.last_node_id.as_str());
         match sent.order.reached(sequence, node) {
-            Some(reached) => sent.reached = reached,
+            Some(reached) => {
+                sent.reached = reached;
+                self.remark(About::Node, None, effects);
+            }
             // at the start of an order it may still name the node of before
             None if sequence == 0 => {}
             None => {
                 let words = format!("is at node `{node}`, sequence {sequence}, which was not released to it");
-                if self.said.as_ref() != Some(&words) {
-                    effects.push(Effect::Say(format!("{} {words}", self.row.name)));
-                    self.said = Some(words);
-                }
+                self.remark(About::Node, Some(words), effects);
             }
         }
     }

@@ -229,7 +229,8 @@ async fn read(
         {
             let bridges: Vec<Bridge> =
                 map["bridges"].as_array().into_iter().flatten().filter_map(bridge).collect();
-            let _ = heard.send(Heard::Bridges(bridges));
+            let bounds = serde_json::from_value(map["bounds"].clone()).ok();
+            let _ = heard.send(Heard::Map(bridges, bounds));
             layout = now;
         }
     }

@@ -63,6 +63,7 @@ impl Alone {
             margins: &margins,
             bridges: &[],
             areas: &[],
+            bounds: Some([-20.0, -20.0, 20.0, 20.0]),
             map: "m",
             clock: &clock,
         };
@@ -72,6 +73,7 @@ impl Alone {
                 Effect::Say(words) => self.log.push(words.clone()),
                 Effect::Send { topic: "order", message, .. } => self.orders.push(message.clone()),
                 Effect::Follow { epoch, start, .. } => self.follows = Some((*epoch, *start)),
+                Effect::Moved { at } => self.follows = self.follows.map(|(epoch, _)| (epoch, *at)),
                 Effect::Write { column, value } => {
                     if *column == "doing" {
                         value.as_str().unwrap().clone_into(&mut self.doing);

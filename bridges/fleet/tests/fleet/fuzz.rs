@@ -34,8 +34,15 @@ fn drive(text: &str, see: &mut impl FnMut(&'static str, &Value)) -> bool {
     for (second, line) in text.lines().take(300).enumerate() {
         is_understood &= hear(&mut driver, line);
         let clock = Clock { seconds: second as f64, words: "2026-11-24T08:00:00.000Z".to_owned() };
-        let world =
-            World { fleet: &fleet, margins: &margins, bridges: &[], areas: &[], map: "m", clock: &clock };
+        let world = World {
+            fleet: &fleet,
+            margins: &margins,
+            bridges: &[],
+            areas: &[],
+            bounds: Some([-20.0, -20.0, 20.0, 20.0]),
+            map: "m",
+            clock: &clock,
+        };
         for effect in driver.think(&world) {
             match effect {
                 Effect::Send { topic, message, .. } => see(topic, &message),

@@ -96,6 +96,7 @@ fn drive(seed: u64, version: Version, schemas: Option<&Schemas>) -> usize {
             margins: &margins,
             bridges: &bridges,
             areas: &[],
+            bounds: Some([-20.0, -20.0, 20.0, 20.0]),
             map: "m",
             clock: &clock,
         };
@@ -216,6 +217,7 @@ fn orders_of_small_sites_of_chance_are_valid() {
                     margins: &margins,
                     bridges: &[],
                     areas: &[],
+                    bounds: Some([-20.0, -20.0, 20.0, 20.0]),
                     map: "m",
                     clock: &clock,
                 };

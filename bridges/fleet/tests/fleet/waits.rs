@@ -124,6 +124,29 @@ fn what_is_closed_lies_where_the_way_leads_and_not_where_its_first_step_does() {
 }
 
 #[test]
+fn a_vehicle_that_reports_to_be_off_the_map_in_the_middle_of_its_order_hears_of_no_other() {
+    let mut alone = Alone::new();
+    alone.says();
+    alone.led(&WAY);
+    alone.says();
+    alone.takes_its_order();
+    alone.says();
+    alone.driver.doubted();
+    for x in [-50.0, -51.0, -52.0] {
+        alone.state["agvPosition"]["x"] = json!(x);
+        let effects = alone.says();
+        assert!(!effects.iter().any(|effect| matches!(effect, Effect::Check { .. })), "{effects:?}");
+        alone.led(&[WAY[1], [9.0, 5.0]]);
+    }
+    let words = "waits: it says that it is off the map, which goes from -20,-20 to 20,20";
+    assert_eq!((alone.orders.len(), alone.doing.as_str()), (1, words));
+    assert_eq!(alone.log, ["v says that it is at -50.00,1.00, off the map"], "once");
+    alone.state["agvPosition"]["x"] = json!(1.0);
+    alone.says();
+    assert_eq!((alone.orders.len(), alone.doing.as_str()), (2, "drives to gate"));
+}
+
+#[test]
 fn a_stop_that_ends_by_itself_is_none() {
     let mut alone = Alone::new();
     alone.state["safetyState"]["eStop"] = json!("AUTOACK");

@@ -20,8 +20,15 @@ fn told(version: Version, all: &[Value]) -> (Vec<(&'static str, Value)>, Vec<Str
         let areas = Area::read(&json!({"areas": areas}));
         let clock = Clock { seconds: moment as f64, words: format!("2026-11-24T08:00:00.{moment:03}Z") };
         let margins = Margins { before: 0.3, ahead: 3.0 };
-        let world =
-            World { fleet: &fleet, margins: &margins, bridges: &[], areas: &areas, map: "m", clock: &clock };
+        let world = World {
+            fleet: &fleet,
+            margins: &margins,
+            bridges: &[],
+            areas: &areas,
+            bounds: Some([-20.0, -20.0, 20.0, 20.0]),
+            map: "m",
+            clock: &clock,
+        };
         driver.read(Vehicle { goal: None, ..fleet.vehicles[0].clone() });
         driver.reported(wire::state(judge.says(&mut Chance(1)).to_string().as_bytes()).unwrap());
         for effect in driver.think(&world) {
