@@ -27,7 +27,9 @@ const AGAIN: f64 = 3.0;
 pub struct Driver {
     pub row: Vehicle,
     link: Option<Link>,
-    version: Option<Version>,
+    /// The version that it says, and that of its topics.
+    speaks: Option<String>,
+    topic: Option<String>,
     report: Option<Report>,
     factsheet: Option<Factsheet>,
     given: Option<Sent>,
@@ -89,7 +91,8 @@ impl Driver {
             cells: Cells::new(row.written.clone()),
             row,
             link: None,
-            version: None,
+            speaks: None,
+            topic: None,
             report: None,
             factsheet: None,
             given: None,
@@ -154,8 +157,38 @@ impl Driver {
         self.factsheet = Some(factsheet);
     }
 
+    /// It says something on topics of this version: `v2`.
+    pub fn topical(&mut self, version: &str) {
+        self.topic = Some(version.to_owned());
+    }
+
     fn spoken(&mut self, version: &str) {
-        self.version = self.row.version.as_deref().and_then(Version::read).or_else(|| Version::read(version));
+        if !version.is_empty() || self.speaks.is_none() {
+            self.speaks = Some(version.to_owned());
+        }
+    }
+
+    /// By which version it is spoken to; a sentence where there is none that it would hear.
+    fn version(&self) -> Result<Version, String> {
+        let said = self.speaks.clone().unwrap_or_default();
+        let told = self.row.version.as_deref().and_then(Version::read);
+        let Some(version) = told.or_else(|| Version::read(&said)) else {
+            let known = Version::ALL.map(|version| version.to_string()).join(", ");
+            return Err(if said.is_empty() {
+                format!(
+                    "does not say which version of VDA 5050 it speaks; say it in a column `version` ({known})"
+                )
+            } else {
+                format!("speaks {said}, which this program does not ({known})")
+            });
+        };
+        let topic = self.topic.as_deref().filter(|topic| *topic != version.of_topic());
+        topic.map_or(Ok(version), |topic| {
+            Err(format!(
+                "speaks {version} on topics of {topic}; orders would go to those of {}",
+                version.of_topic()
+            ))
+        })
     }
 
     /// Another route is the best from where it was asked for.
@@ -209,9 +242,15 @@ impl Driver {
         if self.link.is_some_and(|link| link != Link::Online) {
             return self.link.map(Link::word).unwrap_or_default().to_owned();
         }
-        let (Some(report), Some(version)) = (self.report.clone(), self.version) else {
-            return "not heard of".to_owned();
+        let Some(report) = self.report.clone() else { return "not heard of".to_owned() };
+        let version = match self.version() {
+            Ok(version) => version,
+            Err(words) => {
+                self.remark(About::Version, Some(words.clone()), effects);
+                return words;
+            }
         };
+        self.remark(About::Version, None, effects);
         let to = Addressee {
             version,
             manufacturer: self.row.manufacturer.clone(),
@@ -277,6 +316,7 @@ impl Driver {
 enum About {
     Node,
     Place,
+    Version,
 }
 
 /// A vehicle at one moment.

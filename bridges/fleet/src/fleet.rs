@@ -181,7 +181,7 @@ impl Fleet {
     /// What a vehicle says, by its topic: `INTERFACE/v2/MANUFACTURER/SERIAL/WHAT`.
     fn message(&mut self, topic: &str, payload: &[u8]) -> About {
         let parts: Vec<&str> = topic.rsplitn(5, '/').collect();
-        let [what, serial, manufacturer, ..] = parts[..] else { return About::Nobody };
+        let [what, serial, manufacturer, version, ..] = parts[..] else { return About::Nobody };
         let known = self
             .drivers
             .values_mut()
@@ -193,6 +193,7 @@ impl Fleet {
             }
             return About::Nobody;
         };
+        driver.topical(version);
         let read = match what {
             "state" => wire::state(payload).map(|report| driver.reported(report)),
             "connection" => wire::connection(payload)

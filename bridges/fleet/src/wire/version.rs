@@ -45,6 +45,6 @@ impl Version {
 
 impl std::fmt::Display for Version {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(self.full().trim_end_matches(".0"))
+        f.write_str(self.full().strip_suffix(".0").unwrap_or_default())
     }
 }

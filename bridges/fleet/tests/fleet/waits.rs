@@ -147,6 +147,33 @@ fn a_vehicle_that_reports_to_be_off_the_map_in_the_middle_of_its_order_hears_of_
 }
 
 #[test]
+fn a_vehicle_of_a_version_that_nobody_here_speaks_is_said_to_be_one() {
+    let cases = [
+        ("v2", "1.1.0", "speaks 1.1.0, which this program does not (2.0, 2.1, 3.0)"),
+        ("v2", "two", "speaks two, which this program does not (2.0, 2.1, 3.0)"),
+        ("v2", "3.0.0", "speaks 3.0 on topics of v2; orders would go to those of v3"),
+        (
+            "v2",
+            "",
+            "does not say which version of VDA 5050 it speaks; say it in a column `version` (2.0, 2.1, 3.0)",
+        ),
+    ];
+    for (topic, version, words) in cases {
+        let mut alone = Alone::new();
+        alone.driver.topical(topic);
+        alone.state["version"] = json!(version);
+        for _ in 0..3 {
+            alone.says();
+        }
+        assert_eq!(alone.doing, words);
+        assert_eq!(alone.log, [format!("v {words}")], "once");
+        alone.state["version"] = json!("2.1.0");
+        alone.says();
+        assert_eq!(alone.doing, "asks for the way to gate");
+    }
+}
+
+#[test]
 fn a_stop_that_ends_by_itself_is_none() {
     let mut alone = Alone::new();
     alone.state["safetyState"]["eStop"] = json!("AUTOACK");
