@@ -23,7 +23,7 @@ use crate::wire;
 /// How often vehicles are thought of where nothing is heard.
 const TICK: Duration = Duration::from_millis(500);
 
-/// How many vehicles that the site does not know are named.
+/// How many vehicles that the site does not know, or that speak for others, are named.
 const NAMED: usize = 100;
 
 /// The settings.
@@ -47,6 +47,7 @@ pub struct Fleet {
     areas: Vec<Area>,
     drivers: BTreeMap<String, Driver>,
     follows: BTreeMap<String, asked::Following>,
+    /// Who was named that is not in the table, and what was said of messages of others.
     strangers: BTreeSet<String>,
     writers: BTreeMap<String, JoinHandle<()>>,
     /// How many edits were answered.
@@ -193,6 +194,16 @@ impl Fleet {
             }
             return About::Nobody;
         };
+        if let Some(other) = wire::of_another(payload, manufacturer, serial) {
+            let words = format!(
+                "{}: a message on the topics of {manufacturer}/{serial} says that it is of {other}; what it says is not believed",
+                driver.row.name
+            );
+            if self.strangers.len() < NAMED && self.strangers.insert(words.clone()) {
+                say(&words);
+            }
+            return About::Nobody;
+        }
         driver.topical(version);
         let read = match what {
             "state" => wire::state(payload).map(|report| driver.reported(report)),

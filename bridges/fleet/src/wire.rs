@@ -5,7 +5,7 @@ mod said;
 mod version;
 mod zones;
 
-pub use heard::{Connection, Factsheet, Fault, Link, Report, connection, factsheet, state};
+pub use heard::{Connection, Factsheet, Fault, Link, Report, connection, factsheet, of_another, state};
 pub use said::{Action, Addressee, Blocking, Edge, Instant, Node, Order};
 pub use version::Version;
 pub use zones::{Zone, ZoneSet};

@@ -3,6 +3,14 @@
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Deserializer};
 
+/// Of whom a message says that it is; it may say nothing of that.
+#[derive(Debug, Deserialize)]
+#[serde(rename_all = "camelCase")]
+struct Head {
+    manufacturer: Option<String>,
+    serial_number: Option<String>,
+}
+
 /// A state: where the vehicle is in its order, and how it is.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(rename_all = "camelCase")]
@@ -168,6 +176,15 @@ impl Link {
             Self::ConnectionBroken => "connection broken",
         }
     }
+}
+
+/// Of whom a message on the topics of this vehicle is instead, if it says so.
+pub fn of_another(payload: &[u8], manufacturer: &str, serial: &str) -> Option<String> {
+    // what cannot be read is said where it is read
+    let head: Head = serde_json::from_slice(payload).ok()?;
+    let (of, number) = (head.manufacturer.as_deref(), head.serial_number.as_deref());
+    let is_it = of.is_none_or(|of| of == manufacturer) && number.is_none_or(|number| number == serial);
+    (!is_it).then(|| format!("{}/{}", of.unwrap_or(manufacturer), number.unwrap_or(serial)))
 }
 
 /// Reads a state; a sentence where it is none.

@@ -32,7 +32,17 @@ fn messages_that_cannot_be_read_are_said_in_words_and_vehicles_drive_on() {
         json!({"x": 1e300, "y": 0, "theta": 0, "mapId": "m", "positionInitialized": true}),
     );
     let deep = "[".repeat(100_000);
-    let bad: [(&str, &[u8], &str); 10] = [
+    let bad: [(&str, &[u8], &str); 12] = [
+        (
+            "state",
+            with("serialNumber", json!("cart-1")).leak().as_bytes(),
+            "cart-2: a message on the topics of acme/cart-2 says that it is of acme/cart-1; what it says is not believed",
+        ),
+        (
+            "connection",
+            b"{\"connectionState\": \"OFFLINE\", \"manufacturer\": \"emca\"}",
+            "it is of emca/cart-2",
+        ),
         ("state", &whole.as_bytes()[..100], "its state cannot be read: EOF while parsing"),
         ("state", b"", "its state cannot be read: EOF"),
         ("state", b"\xff\xfe", "its state cannot be read: expected value at line 1 column 1"),
