@@ -314,6 +314,7 @@ impl Driver {
 /// What may be wrong with what a vehicle says.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum About {
+    Battery,
     Node,
     Place,
     Version,

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use serde_json::Value;
 
-use super::{Driver, Effect, Now, words};
+use super::{About, Driver, Effect, Now, words};
 
 /// What blocks a vehicle is so far ahead on its way where nobody knows how large it is, metres.
 const REACH: f64 = 0.5;
@@ -49,8 +49,17 @@ impl Driver {
         }
         if let Some(report) = &self.report {
             values.push(("localized", Value::from(report.position.as_ref().is_some_and(|at| at.localized))));
-            if let Some(battery) = report.battery {
-                values.push(("battery", Value::from(battery.charge.round())));
+            let charge = report.battery.map(|battery| battery.charge);
+            if let Some(charge) = charge.filter(|charge| (0.0..=100.0).contains(charge)) {
+                values.push(("battery", Value::from(charge.round())));
+            } else if let Some(charge) = charge
+                && self.said.insert(About::Battery)
+            {
+                // once: it may say so by turns
+                let name = &self.row.name;
+                let words =
+                    format!("{name} says that its battery is at {charge} per cent, which is not believed");
+                effects.push(Effect::Say(words));
             }
             let errors: BTreeSet<&str> =
                 report.errors.iter().map(|error| error.error_type.as_str()).collect();

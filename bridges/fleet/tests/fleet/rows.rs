@@ -48,6 +48,18 @@ fn a_cell_that_says_the_same_in_another_type_is_not_written() {
 }
 
 #[test]
+fn a_charge_that_cannot_be_is_said_once_and_not_written() {
+    let mut alone = Alone::new();
+    for charge in [-999.0, 50.0, 100.5, -1.0, 100.0, 0.0] {
+        alone.state["batteryState"]["batteryCharge"] = json!(charge);
+        alone.says();
+    }
+    let written: Vec<_> = alone.writes.iter().filter(|(column, _)| *column == "battery").collect();
+    assert_eq!(written, [&("battery", json!(50.0)), &("battery", json!(100.0)), &("battery", json!(0.0))]);
+    assert_eq!(alone.log, ["v says that its battery is at -999 per cent, which is not believed"]);
+}
+
+#[test]
 fn a_table_with_empty_columns_is_written_only_where_something_is_another() {
     let broker = Broker::start();
     let (site, service) =
