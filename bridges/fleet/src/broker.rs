@@ -41,6 +41,16 @@ pub fn options(url: &str, id: &str) -> anyhow::Result<MqttOptions> {
     Ok(options)
 }
 
+/// Refuses what cannot be the first part of topics.
+pub fn expect_topic(interface: &str) -> anyhow::Result<()> {
+    let is_level = |level: &str| !level.is_empty() && !level.contains(['+', '#', '\0']);
+    anyhow::ensure!(
+        interface.split('/').all(is_level),
+        "`--interface` is `{interface}`, with which no topic can begin: expected names with `/` between them, without `+` and `#`"
+    );
+    Ok(())
+}
+
 /// Says how the connection is, and what comes over it, as long as anybody listens.
 pub async fn hear(
     client: AsyncClient,

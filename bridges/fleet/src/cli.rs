@@ -55,6 +55,7 @@ fn serve(cli: Cli) -> anyhow::Result<()> {
         for (name, value) in metres {
             anyhow::ensure!(value.is_finite() && value >= 0.0, "`{name}` is {value}; expected metres");
         }
+        broker::expect_topic(&cli.interface)?;
         let name = site.get("/api/site").await.map_err(|trouble| anyhow::anyhow!("{trouble}"))?;
         let map = cli.map.or_else(|| name["name"].as_str().map(str::to_owned));
         let map = map.unwrap_or_else(|| "map".to_owned());

@@ -254,6 +254,13 @@ fn what_cannot_be_a_site_or_a_broker_is_said_at_once() {
         (["fleet", "http://127.0.0.1:1", "--mqtt", "mqtt://127.0.0.1"], "the site's service does not answer"),
         (["fleet", "http://127.0.0.1:1", "--before", "-3"], "error"),
     ];
+    let interfaces = ["a/#", "a/+/b", "/a", "a//b", "a/", ""];
+    for interface in interfaces {
+        let args = ["fleet", "http://127.0.0.1:1", "--mqtt", "mqtt://127.0.0.1", "--interface", interface];
+        let ran = adit_tests::Ran::new(&std::process::Command::new(adit()).args(args).output().unwrap());
+        ran.expecting(2)
+            .complains(&[&format!("`--interface` is `{interface}`, with which no topic can begin")]);
+    }
     for (args, words) in wrong {
         let ran = adit_tests::Ran::new(&std::process::Command::new(adit()).args(args).output().unwrap());
         ran.expecting(2).complains(&[words]);
