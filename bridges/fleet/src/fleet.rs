@@ -53,6 +53,8 @@ pub struct Fleet {
     /// How many edits were answered.
     answers: Arc<AtomicU64>,
     is_up: bool,
+    /// Whether the table of vehicles was read.
+    is_read: bool,
     trouble: Option<String>,
     clock: clock::Watch,
 }
@@ -74,6 +76,7 @@ impl Fleet {
             writers: BTreeMap::new(),
             answers: Arc::default(),
             is_up: false,
+            is_read: false,
             trouble: None,
             clock: clock::Watch::start(),
         }
@@ -188,6 +191,10 @@ impl Fleet {
             .values_mut()
             .find(|driver| driver.row.serial == serial && driver.row.manufacturer == manufacturer);
         let Some(driver) = known else {
+            // what the broker has kept comes before the table does, and once more for each of its vehicles
+            if !self.is_read {
+                return About::Nobody;
+            }
             let stranger = format!("{manufacturer}/{serial}");
             if self.strangers.len() < NAMED && self.strangers.insert(stranger.clone()) {
                 say(&format!("vehicle {stranger} is on the broker and not in table `{VEHICLES}`"));
@@ -223,7 +230,7 @@ impl Fleet {
     }
 
     fn read(&mut self, tables: Tables) {
-        self.tables = tables;
+        (self.tables, self.is_read) = (tables, true);
         let rows = self.tables.vehicles.clone();
         let names: BTreeSet<String> = rows.iter().map(|row| row.name.clone()).collect();
         self.drivers.retain(|name, _| names.contains(name));

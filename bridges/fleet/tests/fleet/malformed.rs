@@ -3,7 +3,26 @@
 use adit_tests::within;
 use serde_json::{Value, json};
 
-use crate::yard::{Broker, FleetProgram, Vehicle, depot, send};
+use crate::yard::{Broker, FleetProgram, Vehicle, cell, depot, keep, send};
+
+#[test]
+fn a_vehicle_of_the_table_is_not_said_to_be_a_stranger_before_the_table_was_read() {
+    let broker = Broker::start();
+    let (_site, service) = depot("vehicle,manufacturer,robot,goal,connection\ncart-1,acme,cart,,\n", "");
+    let connection = json!({"version": "2.0.0", "connectionState": "ONLINE"});
+    keep(&broker, "uagv/v2/acme/cart-1/connection", &connection);
+    // each time it is by chance what comes first
+    for _ in 0..5 {
+        let program = FleetProgram::start(&service, &broker);
+        within("it hears", || program.hears("cart-1").then_some(()));
+        within("it is online", || (cell(&service, "cart-1", "connection") == "online").then_some(()));
+        assert!(!program.log().contains("not in table"), "{}", program.log());
+        // in a way that leaves the next nothing but what the broker has kept
+        drop(program);
+        let empty = json!({"kind": "set", "table": "vehicles", "key": "cart-1", "column": "connection", "value": null});
+        assert_eq!(service.ask("POST", "/api/edits", Some(&json!({"edit": empty}))).0, 200);
+    }
+}
 
 #[test]
 fn messages_that_cannot_be_read_are_said_in_words_and_vehicles_drive_on() {
