@@ -66,11 +66,15 @@ fn serve(cli: Cli) -> anyhow::Result<()> {
         let broker = broker::hear(client.clone(), events, settings.interface.clone(), heard.clone());
         let fleet = Fleet::new(site, client.clone(), settings, heard);
         let mut term = tokio::signal::unix::signal(tokio::signal::unix::SignalKind::terminate())?;
+        let end = async {
+            tokio::select! {
+                _ = tokio::signal::ctrl_c() => {}
+                _ = term.recv() => {}
+            }
+        };
         tokio::select! {
             () = broker => {}
-            () = fleet.run(hears) => {}
-            _ = tokio::signal::ctrl_c() => {}
-            _ = term.recv() => {}
+            () = fleet.run(hears, end) => {}
         }
         let _ = client.try_disconnect();
         Ok(())

@@ -26,6 +26,15 @@ const TICK: Duration = Duration::from_millis(500);
 /// How many vehicles that the site does not know, or that speak for others, are named.
 const NAMED: usize = 100;
 
+/// What stands in the rows of vehicles when this program was ended.
+const LEFT: &str = "nobody drives it: adit fleet was ended";
+
+/// How long the site may take to write that.
+const LEAVE: Duration = Duration::from_secs(5);
+
+/// How many edits go to the site as one; it takes a thousand.
+const AT_ONCE: usize = 1000;
+
 /// The settings.
 pub struct Settings {
     /// The first part of all topics.
@@ -82,8 +91,41 @@ impl Fleet {
         }
     }
 
-    /// Runs until nobody speaks any more.
-    pub async fn run(mut self, mut hears: UnboundedReceiver<Heard>) {
+    /// Runs until it is to end; then says in the table that nobody drives the vehicles any more.
+    pub async fn run(mut self, hears: UnboundedReceiver<Heard>, end: impl Future<Output = ()>) {
+        tokio::select! {
+            () = self.hear(hears) => {}
+            () = end => {}
+        }
+        if tokio::time::timeout(LEAVE, self.leave()).await.is_err() {
+            say("the site does not answer: its table of vehicles says what they did last");
+        }
+    }
+
+    /// What is written of the vehicles is not true for long now.
+    async fn leave(&mut self) {
+        self.follows.clear();
+        for (_, writer) in std::mem::take(&mut self.writers) {
+            let _ = writer.await;
+        }
+        let last = [("doing", Value::from(LEFT)), ("connection", Value::Null)];
+        let edits: Vec<Value> = (self.drivers.iter())
+            .flat_map(|(name, driver)| {
+                let written = last.iter().filter(|(column, _)| driver.row.written.contains_key(*column));
+                written.map(move |(column, value)| {
+                    json!({"kind": "set", "table": VEHICLES, "key": name, "column": column, "value": value})
+                })
+            })
+            .collect();
+        for edits in edits.chunks(AT_ONCE) {
+            let body = json!({"edit": {"kind": "together", "edits": edits}, "why": LEFT});
+            if let Err(trouble) = self.site.post("/api/edits", &body).await {
+                say(&format!("rows of vehicles cannot be written: {trouble}"));
+            }
+        }
+    }
+
+    async fn hear(&mut self, mut hears: UnboundedReceiver<Heard>) {
         let _events = asked::Kept(tokio::spawn(asked::events(
             self.site.clone(),
             Arc::clone(&self.answers),

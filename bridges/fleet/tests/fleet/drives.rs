@@ -283,6 +283,26 @@ fn a_service_that_is_killed_and_comes_back_loses_nothing() {
     within("the goal is reached", || (cell(&service, "cart-1", "goal") == Value::Null).then_some(()));
 }
 
+#[test]
+fn rows_say_that_nobody_drives_the_vehicles_when_the_program_was_ended() {
+    let broker = Broker::start();
+    let (_site, service) = depot(
+        "vehicle,manufacturer,robot,goal,doing,connection\ncart-1,acme,cart,,,\ncart-2,acme,cart,,,\n",
+        "",
+    );
+    let program = FleetProgram::start(&service, &broker);
+    let mut cart = Vehicle::start(&broker, "2.0.0", "cart-1", [2.0, 6.0, 0.5]);
+    send(&service, "cart-1", "gate");
+    cart.until("it drives", |state| state["driving"] == true);
+    within("it is said", || (cell(&service, "cart-1", "doing") == "drives to gate").then_some(()));
+    program.ends();
+    for vehicle in ["cart-1", "cart-2"] {
+        assert_eq!(cell(&service, vehicle, "doing"), "nobody drives it: adit fleet was ended");
+        assert_eq!(cell(&service, vehicle, "connection"), Value::Null);
+    }
+    assert_eq!(cell(&service, "cart-1", "goal"), "gate", "it is still to go there");
+}
+
 /// The blocks of the manual that are written in this language.
 fn blocks(language: &str) -> Vec<String> {
     let manual = include_str!("../../README.md");

@@ -132,6 +132,13 @@ impl FleetProgram {
         log.contains("the broker is there") && log.contains(&format!("vehicle {vehicle}: "))
     }
 
+    /// Ends it as a service manager does, and waits until it has ended.
+    pub fn ends(mut self) {
+        let kill = Command::new("kill").args(["-TERM", &self.pid().to_string()]).status().unwrap();
+        assert!(kill.success());
+        assert!(self.running.0.wait().unwrap().success(), "{}", self.log());
+    }
+
     pub fn pid(&self) -> u32 {
         self.running.0.id()
     }
