@@ -253,7 +253,10 @@ impl Fleet {
             }
             return About::Nobody;
         }
-        driver.topical(version);
+        // a factsheet that the broker has kept may be of before the vehicle spoke another version
+        if what != "factsheet" {
+            driver.topical(version);
+        }
         let read = match what {
             "state" => wire::state(payload).map(|report| driver.reported(report)),
             "connection" => wire::connection(payload)
