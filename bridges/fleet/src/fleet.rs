@@ -233,7 +233,7 @@ impl Fleet {
             .values_mut()
             .find(|driver| driver.row.serial == serial && driver.row.manufacturer == manufacturer);
         let Some(driver) = known else {
-            // what the broker has kept comes before the table does, and once more for each of its vehicles
+            // what the broker has kept comes before the table does; it is asked for again for each vehicle of the table
             if !self.is_read {
                 return About::Nobody;
             }

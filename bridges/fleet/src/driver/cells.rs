@@ -54,8 +54,8 @@ impl Cells {
     }
 }
 
-/// Whether a cell says this. A column may be of another type than what is written: its cells are empty at first, and all that
-/// says of its type is nothing.
+/// Whether a cell says this, be it of another type: a column whose cells were all empty is one of texts, whatever is written
+/// into it.
 fn is_same(cell: &Value, value: &Value) -> bool {
     match (cell, value) {
         (Value::String(cell), Value::String(value)) => cell == value,

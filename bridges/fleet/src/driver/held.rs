@@ -40,7 +40,7 @@ pub fn why(
 /// Metres beyond the map's edge at which a vehicle may take itself to be.
 const STRAY: f64 = 0.5;
 
-/// Whether nothing can be told from where it says that it is; in words where that is off the map, and the vehicle means this one.
+/// That it says to be off the map, in words; `None` where it means another map, or does not know where it is.
 pub fn off_the_map(report: &Report, map: &str, bounds: Option<[f64; 4]>) -> Option<String> {
     let (at, [x0, y0, x1, y1]) = (report.position.as_ref()?, bounds?);
     let is_of_map = at.localized && (at.map_id.is_empty() || at.map_id == map);
