@@ -346,7 +346,8 @@ impl Site {
         }
         if self.layout.is_some() {
             let message = format!("the map of {} is not cut into rooms, as this needs it to be", self.name);
-            return Err(Error::said(error::Code::CourseUnfit, message, None));
+            let help = "`route`, `why`, `why-not`, `tune` and SQL work on every kind of map".to_owned();
+            return Err(Error::said(error::Code::CourseUnfit, message, Some(help)));
         }
         let message = format!("{} has no map: it has tables and rules, and no rooms or routes", self.name);
         let help =

@@ -1,5 +1,7 @@
 //! `adit why` and `adit why-not`.
 
+use std::fs::File;
+use std::io::Read as _;
 use std::path::Path;
 
 use clap::Args;
@@ -46,9 +48,18 @@ pub struct WhyNotArgs {
 /// Rejections that are printed; all of them stand in the JSON.
 const PRINTED: usize = 20;
 
+/// Whether a file is one of missions, and no map.
+fn is_database(file: &Path) -> bool {
+    let mut head = [0; 16];
+    let read = File::open(file).and_then(|mut file| file.read_exact(&mut head));
+    read.is_ok() && head == *b"SQLite format 3\0"
+}
+
 pub fn why(args: &WhyArgs) -> Result<()> {
     let SiteArgs { site, .. } = &args.site;
-    if site.is_file() && site.extension().is_none_or(|extension| extension != "toml") {
+    // what is asked without a goal of a file that is no map of our own is a mission
+    let is_map = args.goal.is_some() || site.extension().is_some_and(|extension| extension == "toml");
+    if site.is_file() && (is_database(site) || !is_map) {
         return of_mission(args, site, &args.what);
     }
     if let Some(mission) = args.what.strip_prefix("mission ") {

@@ -3,7 +3,7 @@
 use std::sync::{Arc, Weak};
 
 use adit_db::place::Place;
-use adit_planners::geometry::{Point, Rect};
+use adit_planners::geometry::Rect;
 use adit_planners::world::World;
 
 use super::memory::Memory;
@@ -141,11 +141,11 @@ impl View {
         self.graph.places.clone().into_iter().chain(of_course)
     }
 
-    /// What holds all of the map, metres; of a map that is not cut into rooms all that routes lead between.
+    /// What holds all of the map, metres; of a map that is not cut into rooms all that routes lead over.
     pub(crate) fn bounds(&self) -> Rect {
         let Some(courses) = &self.courses else { return self.world.bounds };
-        let ends: Vec<Point> = courses.ends().iter().map(|end| Point::new(end.x, end.y)).collect();
-        if ends.is_empty() { self.world.bounds } else { Rect::around(ends) }
+        let outermost = courses.outermost();
+        if outermost.is_empty() { self.world.bounds } else { Rect::around(outermost) }
     }
 
     /// A map that is not cut into rooms as an SVG text, with a route where one is asked for.

@@ -12,6 +12,7 @@ use adit_engine::{
     Class as Objects, Consultation, KnowledgeBase as Inference, RuleBase, Schema, Type, Value,
 };
 use adit_planners::facts::Facts;
+use adit_planners::geometry::Point;
 use adit_planners::planner::Planner;
 
 use super::consult::Class;
@@ -63,6 +64,11 @@ pub trait Pathfinder: Send + Sync {
 
     /// Between what routes lead, by name.
     fn ends(&self) -> Vec<Place>;
+
+    /// What lies outermost on the map: the ends, unless it has more.
+    fn outermost(&self) -> Vec<Point> {
+        self.ends().iter().map(|end| Point::new(end.x, end.y)).collect()
+    }
 
     /// The route of least weight of a robot from an end to another one, or to a point where points are ends.
     fn find(&self, robot: &str, start: &str, goal: &str) -> std::result::Result<Found, NoEnd>;

@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use adit_db::course::Course as Row;
 use adit_db::place::Place;
+use adit_planners::geometry::Point;
 
 use super::State;
 use crate::error::{Code, Error, Result};
@@ -133,6 +134,11 @@ impl Courses {
     /// Between what routes lead.
     pub fn ends(&self) -> Vec<Place> {
         self.finder.ends()
+    }
+
+    /// What lies outermost on the map.
+    pub fn outermost(&self) -> Vec<Point> {
+        self.finder.outermost()
     }
 
     /// The kept routes that are others than before, with those that are no more; where there was none before nor is now,

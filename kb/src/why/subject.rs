@@ -1,5 +1,7 @@
 //! What a question is about: `door 7`, `room d`, `doors.7`, `doors.7.hardness`.
 
+use adit_engine::Value;
+
 use crate::error::{Code, Error, Result};
 use crate::graph::Building;
 use crate::state::State;
@@ -17,6 +19,28 @@ pub struct Subject {
 }
 
 impl Subject {
+    /// What a lane graph calls so: a door, a lift, a station, a node or a lane, by its key or its name. Numbers are those of several
+    /// of them.
+    fn of_lanes(fork: &State, text: &str) -> Option<Self> {
+        if fork.courses.is_none() || text.parse::<f64>().is_ok() {
+            return None;
+        }
+        let named = |class: &str| {
+            let class = class.to_uppercase();
+            let mut rows = 0..fork.knowledge.len(&class).unwrap_or(0);
+            let is_it = |row: &usize| {
+                let name = fork.knowledge.value_at(&class, *row, "name");
+                name.is_some_and(|name| matches!(name, Value::Text(name) if *name == *text))
+            };
+            rows.find(is_it).and_then(|row| fork.knowledge.key(&class, row))
+        };
+        OF_LANES.into_iter().find_map(|class| {
+            let found = Self::of(fork, class, text, None);
+            let found = found.or_else(|| Self::of(fork, class, &named(class)?, None));
+            found.map(|found| Self { name: text.to_owned(), ..found })
+        })
+    }
+
     /// Finds out what a text means; an object that is not there is an error.
     ///
     /// What the building has a name for comes first, as wherever a name is asked for: `room 1` is the space of that name,
@@ -40,6 +64,9 @@ impl Subject {
             if let Some(found) = found {
                 return Ok(Self { name: text.trim().to_owned(), ..found });
             }
+        }
+        if let Some(found) = Self::of_lanes(fork, text.trim()) {
+            return Ok(found);
         }
         let Some((class, rest)) = text.trim().split_once('.') else {
             let message = format!("`{text}` names no object");
@@ -109,6 +136,9 @@ impl Subject {
         }
     }
 }
+
+/// What stands about lanes, in the order in which a name means it.
+const OF_LANES: [&str; 5] = ["lane_doors", "lifts", "stations", "nodes", "lanes"];
 
 /// The whole key of the one object of a class that a key means, or its last part: `SQUAT`, of `robot/SQUAT`.
 fn whole_key(fork: &State, class: &str, key: &str) -> Option<String> {

@@ -10,7 +10,7 @@ use adit_planners::geometry::Point;
 use adit_planners::lanes::{Lane, Node, Station, Use, VehicleType};
 use petgraph::algo::astar;
 use petgraph::graph::{DiGraph, NodeIndex};
-use petgraph::visit::Dfs;
+use petgraph::visit::{Dfs, IntoNeighbors, Reversed, Visitable};
 
 use super::judge::{Judge, Weighed};
 use super::tables::Now;
@@ -235,31 +235,44 @@ impl Routes {
         from.iter().filter_map(from_one).min_by(|one, other| one.cost.total_cmp(&other.cost))
     }
 
-    /// Why nothing leads from some nodes to others: what keeps a vehicle from the lanes that would lead on.
-    fn because(&self, vehicle: usize, from: &[usize]) -> String {
+    /// Why nothing leads from some nodes to others: each thing that alone keeps a vehicle from it, or else all that does on the way
+    /// on which the fewest lanes are refused.
+    fn because(&self, vehicle: usize, from: &[usize], to: &[usize]) -> String {
         let net = &self.nets[vehicle];
-        let mut search = Dfs::empty(&net.graph);
-        let mut reached = BTreeSet::new();
-        for &from in from {
-            search.move_to(NodeIndex::new(from));
-            while let Some(node) = search.next(&net.graph) {
-                reached.insert(node.index());
-            }
-        }
-        let leads_on = |lane: usize| {
-            let [a, b] = self.ends_of(lane);
-            reached.contains(&a) && !reached.contains(&b)
+        let (there, back) = (reached(&net.graph, from), reached(Reversed(&net.graph), to));
+        let joins = |lane: &usize| {
+            let [a, b] = self.ends_of(*lane);
+            there.contains(&a) && back.contains(&b)
         };
-        let refusals = net.weighed.iter().enumerate().filter(|(lane, _)| leads_on(*lane));
-        let mut refusals: Vec<&str> =
-            refusals.filter_map(|(_, weighed)| weighed.as_ref().err()).map(String::as_str).collect();
-        refusals.dedup();
-        match refusals.as_slice() {
-            [] if reached.len() == 1 => "no lane leads on from there".to_owned(),
-            [] => format!("no lane leads on from the {} nodes that can be reached", reached.len()),
-            [one, two, three, _, ..] => format!("{one}; {two}; {three}; and {} more", refusals.len() - 3),
-            few => few.join("; "),
+        let alone = refusals(net, (0..net.weighed.len()).filter(joins));
+        if !alone.is_empty() {
+            return some(&alone, "; ");
         }
+        let mut all: DiGraph<(), usize> =
+            DiGraph::with_capacity(self.now.graph.nodes.len(), net.weighed.len());
+        for _ in &self.now.graph.nodes {
+            all.add_node(());
+        }
+        for lane in 0..net.weighed.len() {
+            let [from, to] = self.ends_of(lane).map(NodeIndex::new);
+            all.add_edge(from, to, lane);
+        }
+        let refused = |lane: usize| usize::from(net.weighed[lane].is_err());
+        let from_one = |&from: &usize| {
+            let is_goal = |node: NodeIndex| to.contains(&node.index());
+            astar(&all, NodeIndex::new(from), is_goal, |edge| refused(*edge.weight()), |_| 0)
+        };
+        let Some((_, nodes)) = from.iter().filter_map(from_one).min_by_key(|(count, _)| *count) else {
+            return match there.len() {
+                1 => "no lane leads on from there".to_owned(),
+                count => format!("no lane leads on from the {count} nodes that can be reached"),
+            };
+        };
+        let lane = |pair: &[NodeIndex]| {
+            let between = all.edges_connecting(pair[0], pair[1]).map(|edge| *edge.weight());
+            between.min_by_key(|lane| refused(*lane))
+        };
+        some(&refusals(net, nodes.windows(2).filter_map(lane)), ", and ")
     }
 
     fn said(&self, vehicle: usize, lane: usize) -> Arc<Said> {
@@ -357,6 +370,44 @@ impl Routes {
     }
 }
 
+/// The nodes that are reached from some nodes, with these.
+fn reached<G>(graph: G, from: &[usize]) -> BTreeSet<usize>
+where
+    G: IntoNeighbors<NodeId = NodeIndex> + Visitable<NodeId = NodeIndex> + Copy,
+{
+    let mut search = Dfs::empty(graph);
+    search.reset(graph);
+    let mut reached = BTreeSet::new();
+    for &from in from {
+        search.move_to(NodeIndex::new(from));
+        while let Some(node) = search.next(graph) {
+            reached.insert(node.index());
+        }
+    }
+    reached
+}
+
+/// Why a vehicle is kept off some lanes, each reason once.
+fn refusals(net: &Net, lanes: impl Iterator<Item = usize>) -> Vec<&str> {
+    let mut refusals: Vec<&str> = Vec::new();
+    for refusal in lanes.filter_map(|lane| net.weighed[lane].as_ref().err()) {
+        if !refusals.contains(&refusal.as_str()) {
+            refusals.push(refusal);
+        }
+    }
+    refusals
+}
+
+/// Some reasons, and how many more there are.
+fn some(reasons: &[&str], between: &str) -> String {
+    match reasons {
+        [one, two, three, _, ..] => {
+            format!("{one}{between}{two}{between}{three}{between}{} more", reasons.len() - 3)
+        }
+        few => few.join(between),
+    }
+}
+
 impl Pathfinder for Routes {
     fn robots(&self) -> Vec<String> {
         self.now.graph.vehicle_types.iter().map(|of| of.vehicle_type.clone()).collect()
@@ -366,13 +417,17 @@ impl Pathfinder for Routes {
         self.places.clone()
     }
 
+    fn outermost(&self) -> Vec<Point> {
+        self.now.graph.nodes.iter().map(|node| node.at).collect()
+    }
+
     fn find(&self, robot: &str, start: &str, goal: &str) -> std::result::Result<Found, NoEnd> {
         let vehicle = self.vehicle(robot)?;
         let (from, to) = (self.end(start, true)?, self.end(goal, false)?);
         let names = [robot, start, goal];
         Ok(match self.way(vehicle, &from.nodes, &to.nodes) {
             Some(way) => self.found(vehicle, names, [&from, &to], &way),
-            None => none(names, self.because(vehicle, &from.nodes)),
+            None => none(names, self.because(vehicle, &from.nodes, &to.nodes)),
         })
     }
 

@@ -30,7 +30,7 @@ pub struct Travel<'n> {
     lists_types: bool,
     carried: Option<&'n Carried>,
     is_door_closed: bool,
-    is_lift_closed: bool,
+    closed_lift: Option<&'n str>,
 }
 
 /// Metres along a lane; between levels with the height.
@@ -61,7 +61,11 @@ impl<'n> Travel<'n> {
             lists_types: !uses.is_empty(),
             carried: carrying.get(&vehicle.vehicle_type),
             is_door_closed: lane.doors().any(|door| now.closed_doors.contains(door)),
-            is_lift_closed: lift.into_iter().flatten().any(|lift| now.closed_lifts.contains(lift)),
+            closed_lift: lift
+                .into_iter()
+                .flatten()
+                .find(|lift| now.closed_lifts.contains(*lift))
+                .map(String::as_str),
         }
     }
 
@@ -87,6 +91,12 @@ impl<'n> Travel<'n> {
         self.lane.speed_limit.into_iter().chain(allowed).min_by(f64::total_cmp)
     }
 
+    /// The end that is closed, by its name where it has one.
+    fn closed_node(&self) -> Option<&str> {
+        let closed = [self.to, self.from].into_iter().find(|node| node.closed)?;
+        Some(closed.name.as_deref().unwrap_or(&closed.node))
+    }
+
     /// The end that is not for the vehicle.
     fn unlisted_node(&self) -> Option<&str> {
         let mut ends = [self.from, self.to].into_iter();
@@ -101,7 +111,7 @@ impl<'n> Travel<'n> {
 }
 
 /// What rules are told of a vehicle type on a lane.
-pub const fn told<'n>() -> [Property<Travel<'n>>; 37] {
+pub const fn told<'n>() -> [Property<Travel<'n>>; 39] {
     [
         ("lane", Text(|of| Some(&of.lane.lane))),
         ("name", Text(|of| of.lane.name.as_deref())),
@@ -115,8 +125,10 @@ pub const fn told<'n>() -> [Property<Travel<'n>>; 37] {
         ("of_graph", Text(|of| of.vehicle.graph.as_deref())),
         ("closed", Truth(|of| of.lane.closed)),
         ("is_door_closed", Truth(|of| of.is_door_closed)),
-        ("is_lift_closed", Truth(|of| of.is_lift_closed)),
+        ("is_lift_closed", Truth(|of| of.closed_lift.is_some())),
+        ("closed_lift", Text(|of| of.closed_lift)),
         ("is_node_closed", Truth(|of| of.from.closed || of.to.closed)),
+        ("closed_node", Text(Travel::closed_node)),
         ("door", Text(|of| of.lane.door.as_deref())),
         ("lift", Text(|of| of.lane.lift.as_deref())),
         ("orientation", Text(|of| of.lane.orientation.as_deref())),

@@ -1,8 +1,9 @@
 //! A building of Open-RMF with a lift and a door, and a hall of LIF with two vehicle types: closed by name, tuned, asked why.
 
 use std::path::PathBuf;
+use std::process::Command;
 
-use adit_tests::{TestSite, repository};
+use adit_tests::{Ran, TestSite, adit, repository};
 
 use super::site_of;
 
@@ -39,7 +40,14 @@ fn a_route_leads_through_the_door_and_round_it_when_it_is_closed() {
         why.stdout,
         why.stderr
     );
+    // what lets nobody through elsewhere is no reason
+    site.adit("close", &["store"]).expect_status(0);
+    let both = site.adit("route", &["lobby", "store"]).expecting(1).stdout;
+    assert!(both.ends_with(" is closed, and store is closed\n"), "{both}");
     site.adit("open", &["lane 6"]).expect_status(0);
+    let store = site.adit("route", &["lobby", "store"]).expecting(1).stdout;
+    assert_eq!(store, "no route from lobby to store: store is closed\n");
+    site.adit("open", &["store"]).expect_status(0);
     site.adit("open", &["pharmacy_door"]).expect_status(0);
     assert_eq!(site.sqlite3(COST), ["ok|11.0"]);
     site.adit("close", &["lane 99"])
@@ -67,7 +75,9 @@ fn a_lift_is_ridden_between_levels_and_closed_by_name() {
     assert_eq!(back, ["REVERSE"], "out of the cabin a vehicle backs, since it drove in forward");
     site.adit("close", &["lift"]).expect_status(0);
     let ran = site.adit("route", &["lobby", "ward 2"]).expecting(1);
-    assert!(ran.stdout.contains("the lift of lane 4 is closed"), "{}", ran.stdout);
+    assert!(ran.stdout.ends_with("lift is closed\n"), "{}", ran.stdout);
+    let why = site.adit("why", &["lift"]).expecting(0).stdout;
+    assert!(why.contains("lift closed is true"), "{why}");
     site.adit("undo", &[]).expect_status(0);
     assert_eq!(site.sqlite3(ride).len(), 4);
     // any node is an end, and so is a point near one
@@ -231,4 +241,12 @@ fn a_layer_of_which_the_map_gives_nothing_is_said_to_be_empty() {
     let to = site.path().join("rooms.geojson");
     let ran = site.adit("export", &["rooms", "--to", to.to_str().unwrap()]).expecting(0);
     assert!(ran.stderr.contains("`rooms` is empty; layers that are not: "), "{}", ran.stderr);
+}
+
+#[test]
+fn why_a_way_over_a_file_is_as_it_is_is_answered_without_a_site() {
+    let map = world("ward.building.yaml");
+    let why = Command::new(adit()).arg("why").arg(map).args(["lobby", "store"]).output().unwrap();
+    let said = Ran::new(&why).expecting(0).stdout;
+    assert!(said.starts_with("The route from lobby to store costs 14.\nlane 0: weighs 5"), "{said}");
 }
