@@ -2,6 +2,7 @@
 
 use adit_db::Store;
 use clap::Args;
+use jiff::Timestamp;
 
 use super::args::SiteArgs;
 use super::build::open;
@@ -108,7 +109,10 @@ fn list(knowledge: &KnowledgeBase, as_json: bool) -> Result<()> {
         let about: Vec<String> = about.iter().map(name).collect();
         let about = if about.is_empty() { at("state", row) } else { about.join(", ") };
         let what = format!("{class} {} {property} = {value}", shown(&object));
-        vec![at("id", row), what, about, at("until", row), at("who", row), at("why", row), at("at", row)]
+        let until = at("until", row);
+        let is_over = until.parse::<Timestamp>().is_ok_and(|end| end <= Timestamp::now());
+        let until = if is_over { format!("{until} (over)") } else { until };
+        vec![at("id", row), what, about, until, at("who", row), at("why", row), at("at", row)]
     };
     table(&["fact", "what", "about", "until", "who", "why", "at"], (0..rows).map(cells));
     Ok(())

@@ -67,7 +67,7 @@ fn elsewhere(graph: &SiteGraph, present: &Path, other: &Path) -> String {
     let only = |of: &[String], others: &[String]| {
         let only: Vec<String> =
             of.iter().filter(|name| !others.contains(name)).take(NAMED).cloned().collect();
-        listed(&only)
+        if only.is_empty() { String::new() } else { listed(&only) }
     };
     let (new, gone) = (only(&theirs, &mine), only(&mine, &theirs));
     if !new.is_empty() {

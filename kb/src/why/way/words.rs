@@ -24,6 +24,9 @@ pub fn sentences(answer: &WhyWay, at: Option<&Meant>, is_passed: bool) -> Vec<St
             at.words()
         )];
     }
+    if answer.start == answer.goal {
+        return vec![format!("The route starts at {}, which is its goal: nothing is driven.", answer.start)];
+    }
     let place = at.map_or_else(|| "all along".to_owned(), Meant::words);
     let easiest = answer.easiest.as_ref().map_or_else(
         || "nothing is easier there".to_owned(),
