@@ -49,7 +49,9 @@ impl LaneGraph {
         }
         let meant = |key: &str| {
             let near = READ.iter().map(|read| (strsim::osa_distance(key, read), *read));
-            near.min().filter(|(slips, _)| *slips <= SLIPS && key.len() >= SHORT).map(|(_, read)| read)
+            // what is read may be kept as well
+            let near = near.min().filter(|(slips, _)| (1..=SLIPS).contains(slips) && key.len() >= SHORT);
+            near.map(|(_, read)| read)
         };
         let misspelt = keys.iter().filter_map(|(key, count)| {
             let read = meant(key)?;
