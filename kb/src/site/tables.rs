@@ -1,6 +1,7 @@
 //! Tables of the site's own as files: `tables/NAME.csv` or `NAME.xlsx` seeds the table NAME once; from then on the database is
 //! what counts.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use adit_db::relation::Relation;
@@ -35,7 +36,17 @@ pub fn files(folder: &Path) -> Vec<PathBuf> {
 
 /// Reads all of them.
 pub fn read(folder: &Path) -> Result<Vec<TableFile>> {
-    files(folder).iter().map(|path| TableFile::of(&Sheet::read(path)?)).collect()
+    let mut tables: Vec<TableFile> = Vec::new();
+    for path in files(folder) {
+        let sheet = Sheet::read(&path)?;
+        let table = TableFile::of(&sheet)?;
+        if let Some(other) = tables.iter().find(|known| known.name.eq_ignore_ascii_case(&table.name)) {
+            let message = format!("this is table `{}`, and so is {}", table.name, other.path.display());
+            return Err(sheet.wrong(None, &message, "take one of both files away, or call it otherwise"));
+        }
+        tables.push(table);
+    }
+    Ok(tables)
 }
 
 /// A word about each column that is of texts for the one reason that its numbers are written with commas.
@@ -93,13 +104,26 @@ impl TableFile {
             ("REAL", text) => text.parse().map_or(Cell::Null, Cell::Real),
             (_, text) => Cell::Text(text.to_owned()),
         };
-        let row = |row: &Vec<String>| row.iter().enumerate().map(|(at, text)| cell(at, text)).collect();
+        let row = |row: &Vec<String>| -> Vec<Cell> {
+            row.iter().enumerate().map(|(at, text)| cell(at, text)).collect()
+        };
+        let rows: Vec<Vec<Cell>> = sheet.rows.iter().map(row).collect();
+        // numbers may be written otherwise, and be the same
+        let mut seen = BTreeMap::new();
+        for (at, row) in rows.iter().enumerate() {
+            let key: Vec<String> = sheet.key.iter().map(|&column| row[column].to_string()).collect();
+            let said = key.join("/");
+            if let Some(first) = seen.insert(key, at + 2) {
+                let message = format!("two rows are called {said}");
+                return Err(sheet.wrong(Some(at), &message, &format!("the first is row {first}")));
+            }
+        }
         Ok(Self {
             path: sheet.path.clone(),
             name: sheet.name()?,
             columns: sheet.columns.iter().cloned().zip(kinds.iter().copied()).collect(),
             key: sheet.key.clone(),
-            rows: sheet.rows.iter().map(row).collect(),
+            rows,
         })
     }
 

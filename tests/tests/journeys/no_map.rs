@@ -96,6 +96,8 @@ fn files_that_are_no_tables_are_refused_with_their_place() {
         ("tables/a.csv", "", "it is empty"),
         ("tables/a.csv", "lamp,watts\nnorth\n", "this row has 1 cells, and there are 2 columns"),
         ("tables/a.csv", "lamp,watts\nnorth,1\nnorth,2\n", "two rows are called north"),
+        ("tables/a.csv", "lamp,watts\n1,4\n1.0,2\n", "two rows are called 1"),
+        ("tables/Products.csv", "product,price\ntea,1\n", "is table `products`, and so is"),
         ("tables/a.csv", "lamp,watts\n,1\n", "this row has no `lamp`"),
         ("tables/a.csv", "lamp,lamp\n", "two columns are called `lamp`"),
         ("tables/a.csv", "lamp,two words\n", "`two words` is no name of a column"),
