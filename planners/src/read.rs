@@ -27,7 +27,7 @@ use crate::world::World;
 pub use area_file::AreaFile;
 pub use diagnostic::{Code, MapErrors, Problem, Text};
 pub(crate) use fields::span_of;
-pub use fields::{Document, Fields, Located};
+pub use fields::{Document, Fields, Located, in_words};
 pub use overlay::Overlay;
 pub use report::MapReport;
 pub use settings::{MapSettings, Unknown};

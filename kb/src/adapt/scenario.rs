@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::path::Path;
 
 use adit_planners::adapt::{Object, Settings};
-use adit_planners::read::{Code, Located, Problem, Text};
+use adit_planners::read::{Code, Located, Problem, Text, in_words};
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 use serde_saphyr::{Location, Spanned};
@@ -230,7 +230,7 @@ fn explain(source: &Text, error: &serde_saphyr::Error) -> Problem {
             source.problem(Code::UnknownKey, &span, format!("`{field}` is not a key of a scenario"))
         }
         other => source
-            .problem(Code::Syntax, &span, format!("not a scenario: {other}"))
+            .problem(Code::Syntax, &span, format!("not a scenario: {}", in_words(other)))
             .with_help("a polygon is [[x, y], ...] in metres, a configuration one number a joint in radians"),
     }
 }

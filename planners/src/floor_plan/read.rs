@@ -11,7 +11,7 @@ use serde_saphyr::Spanned;
 use super::check::Source;
 use super::plan::{Drawn, FloorPlan};
 use crate::geometry::Point;
-use crate::read::{Code, MapErrors, Problem, Text, nearest, span_of};
+use crate::read::{Code, MapErrors, Problem, Text, in_words, nearest, span_of};
 use crate::world::Place;
 
 const KEYS: [&str; 5] = ["name", "units", "walls", "solids", "places"];
@@ -103,8 +103,10 @@ fn explain(source: &Text, error: &serde_saphyr::Error) -> Problem {
         serde_saphyr::Error::SerdeMissingField { field, .. } => {
             source.problem(Code::MissingKey, &span, format!("a floor plan needs `{field}` here"))
         }
-        other => source.problem(Code::Syntax, &span, format!("not a floor plan: {other}")).with_help(
-            "a wall is [[x0, y0], [x1, y1]], a place {\"name\": \"…\", \"at\": [x, y]}, in metres",
-        ),
+        other => {
+            source.problem(Code::Syntax, &span, format!("not a floor plan: {}", in_words(other))).with_help(
+                "a wall is [[x0, y0], [x1, y1]], a place {\"name\": \"…\", \"at\": [x, y]}, in metres",
+            )
+        }
     }
 }

@@ -58,6 +58,17 @@ impl<T: Clone> From<&serde_saphyr::Spanned<T>> for Located<T> {
     }
 }
 
+/// What the parser of YAML and JSON found, for whoever wrote the text.
+pub fn in_words(error: &serde_saphyr::Error) -> String {
+    use serde_saphyr::Error;
+    match error {
+        Error::NullIntoString { .. } => "nothing stands here, expected a text".to_owned(),
+        Error::DuplicateMappingKey { key: Some(key), .. } => format!("`{key}` stands there twice"),
+        Error::DuplicateMappingKey { .. } => "a key stands there twice".to_owned(),
+        other => other.to_string(),
+    }
+}
+
 /// Where a place of a YAML or JSON text lies, in bytes.
 pub(crate) fn span_of(location: serde_saphyr::Location) -> Range<usize> {
     let span = location.span();

@@ -70,6 +70,11 @@ fn numbers_are_finite_and_sizes_positive() {
 fn shapes_have_an_area_and_a_simple_outline() {
     let cases = [
         ("[[obstacle]]\nrect = [1, 1, 1, 2]", "map/degenerate", "a wall needs a thickness, say 0.1 m"),
+        (
+            "[[obstacle]]\npolygon = [[1, 2], [2, 2], [3, 2]]",
+            "map/degenerate",
+            "an outline has corners on either side: a wall needs a thickness, say 0.1 m",
+        ),
         ("[[obstacle]]\nrect = [4, 1, 2, 2]", "map/degenerate", "did you mean [2, 1, 4, 2]?"),
         (
             "[[bridge]]\nrect = [1, 1, 2, 1]\nheight = 2",

@@ -15,6 +15,14 @@ pub(super) fn add_obstacle(
     found: &mut Vec<Problem>,
 ) {
     let rect = obstacle.value.enclosing_rect();
+    if rect.dx() <= 0.0 || rect.dy() <= 0.0 {
+        let message = "this obstacle has no area: its corners lie on one line".to_owned();
+        let problem = text.problem(Code::Degenerate, &obstacle.span, message);
+        found.push(
+            problem.with_help("an outline has corners on either side: a wall needs a thickness, say 0.1 m"),
+        );
+        return;
+    }
     let Some(inside) = inside(world.bounds, text, "obstacle", rect, obstacle, found) else { return };
     let shape = match &obstacle.value {
         Shape::Rect(_) => Shape::Rect(inside),

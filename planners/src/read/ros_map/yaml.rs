@@ -6,7 +6,7 @@ use serde::Deserialize;
 use serde_saphyr::Spanned;
 
 use super::super::diagnostic::{Code, MapErrors, Problem, Text};
-use super::super::fields::{LARGEST, Located, reckoned, span_in};
+use super::super::fields::{LARGEST, Located, in_words, reckoned, span_in};
 use super::super::occupancy::Cell;
 use super::super::suggest::nearest;
 use crate::pose::Pose;
@@ -174,7 +174,10 @@ fn explain((source, text): (&Text, &str), error: &serde_saphyr::Error) -> Proble
         serde_saphyr::Error::SerdeMissingField { field, .. } => {
             source.problem(Code::MissingKey, &(0..0), format!("a ROS map needs a `{field}`"))
         }
-        other => source.problem(Code::Syntax, &span, format!("not the YAML file of a ROS map: {other}")),
+        other => {
+            let message = format!("not the YAML file of a ROS map: {}", in_words(other));
+            source.problem(Code::Syntax, &span, message)
+        }
     }
 }
 
