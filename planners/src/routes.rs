@@ -99,7 +99,7 @@ impl RouteGraph {
             let ways = all.filter_map(|(goal, way)| Some((goal, way?)));
             return ways.min_by(|(_, one), (_, two)| one.cost.total_cmp(&two.cost)).map(as_it_is);
         }
-        if let Some(cut) = self.cut() {
+        if let Some(cut) = self.cut_for(start) {
             return cut.way(start, goals, is_wide, limit);
         }
         let outcome = Search::find(self, start, goals, Wanted::One, limit);
@@ -138,7 +138,7 @@ impl RouteGraph {
         if self.is_on_doors() {
             return self.tree(start).ways(self, start, goals, rooms);
         }
-        if let Some(cut) = self.cut() {
+        if let Some(cut) = self.cut_for(start) {
             return cut.ways(start, goals, rooms);
         }
         let wanted = if rooms { Wanted::Rooms } else { Wanted::Goals };

@@ -75,6 +75,13 @@ impl RouteGraph {
         Some(self.cut.get_or_init(|| Box::new(Cut::new(self))))
     }
 
+    /// The rooms cut along closed boundaries, where one of these is closed for whoever starts there: to others it is as if there
+    /// were none.
+    pub(super) fn cut_for(&self, start: &Start) -> Option<&Cut> {
+        let is_concerned = |entry: &Entry| self.closed.iter().any(|closed| closed.holds_for(entry.room));
+        if start.rooms.iter().any(is_concerned) { self.cut() } else { None }
+    }
+
     /// Weighs what is cut anew, too.
     pub(super) fn reweigh_cut(
         &mut self,

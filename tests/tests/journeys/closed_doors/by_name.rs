@@ -9,6 +9,7 @@ use adit_db::history::Author;
 use adit_planners::geometry::{Point, Segment, polygon};
 use adit_tests::oracle::random::Chance;
 use adit_tests::{TestSite, shared};
+use serde_json::Value;
 
 use super::{author, crosses, faults, live};
 
@@ -578,4 +579,47 @@ fn what_cannot_be_closed_is_refused_with_what_was_meant() {
     site.adit("close", &["ward 12", "--until", "2020-01-01"]).expecting(2).complains(&["that is over"]);
     site.adit("open", &["triagge"]).expecting(2).complains(&["did you mean `triage`?"]);
     assert!(site.sqlite3("SELECT * FROM told").is_empty());
+}
+
+/// Neither a metre of their ways nor the last digit of a number, from places or from anywhere.
+#[test]
+fn what_is_closed_to_one_robot_is_as_if_it_were_open_to_the_others() {
+    let site = TestSite::example("depot").built();
+    let routes = |robot: &str| {
+        let ends = [["dock", "gate"], ["2.3,3.1", "gate"], ["shelf", "3.7,2.9"], ["charger", "dock"]];
+        ends.map(|[start, goal]| {
+            let asked = [start, goal, "--robot", robot, "--within", "0.8", "--json"];
+            let mut answer: Value = serde_json::from_str(&site.adit("route", &asked).stdout).unwrap();
+            answer["generation"] = Value::Null;
+            answer
+        })
+    };
+    let before = ["cart", "dog", "crawler"].map(routes);
+    assert!(before.iter().flatten().filter(|answer| answer["status"] == "ok").count() > 8, "{before:#?}");
+    for doorway in ["doorway 1", "doorway 2", "doorway 3"] {
+        site.adit("close", &[doorway, "--only", "cart"]).expect_status(0);
+        assert_eq!([routes("dog"), routes("crawler")], [before[1].clone(), before[2].clone()], "{doorway}");
+    }
+    assert_ne!(routes("cart"), before[0], "and the cart goes elsewhere, or nowhere");
+}
+
+#[test]
+fn a_closing_for_another_robot_leaves_the_way_through_a_scanned_shop_as_it_is() {
+    let Some(map) = shared("data/aws-robomaker/bookstore_map.yaml") else { return };
+    let site = TestSite::empty();
+    site.adit("new", &["--map", map.to_str().unwrap(), "--robot", "cart"]).expect_status(0);
+    let site = site.built();
+    let large = ["robots", "big/DRIVE", "--add", "action=DRIVE", "height=1", "width=1.2", "hardness=1"];
+    site.adit("tune", &large).expect_status(0);
+    let way = || {
+        let asked = ["4.925,-2.825", "-5.525,5.225", "--robot", "robot", "--within", "0.8", "--json"];
+        let mut answer: Value = serde_json::from_str(&site.adit("route", &asked).stdout).unwrap();
+        answer["generation"] = Value::Null;
+        answer
+    };
+    let before = way();
+    site.adit("close", &["doorway 10", "--only", "big"]).expect_status(0);
+    assert_eq!(way(), before);
+    site.adit("close", &["doorway 10"]).expect_status(0);
+    assert_ne!(way(), before, "the way led through it");
 }
