@@ -30,7 +30,7 @@ const NAMED: usize = 100;
 const LEFT: &str = "nobody drives it: adit fleet was ended";
 
 /// How long the site may take to write that.
-const LEAVE: Duration = Duration::from_secs(5);
+const LEAVE: Duration = Duration::from_secs(20);
 
 /// How many edits go to the site as one; it takes a thousand.
 const AT_ONCE: usize = 1000;
@@ -92,9 +92,10 @@ impl Fleet {
     }
 
     /// Runs until it is to end; then says in the table that nobody drives the vehicles any more.
-    pub async fn run(mut self, hears: UnboundedReceiver<Heard>, end: impl Future<Output = ()>) {
+    pub async fn run(mut self, mut hears: UnboundedReceiver<Heard>, end: impl Future<Output = ()>) {
+        // until it has left: who speaks and is not listened to any more ends the program
         tokio::select! {
-            () = self.hear(hears) => {}
+            () = self.hear(&mut hears) => {}
             () = end => {}
         }
         if tokio::time::timeout(LEAVE, self.leave()).await.is_err() {
@@ -125,7 +126,7 @@ impl Fleet {
         }
     }
 
-    async fn hear(&mut self, mut hears: UnboundedReceiver<Heard>) {
+    async fn hear(&mut self, hears: &mut UnboundedReceiver<Heard>) {
         let _events = asked::Kept(tokio::spawn(asked::events(
             self.site.clone(),
             Arc::clone(&self.answers),

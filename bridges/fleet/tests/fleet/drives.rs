@@ -295,9 +295,9 @@ fn rows_say_that_nobody_drives_the_vehicles_when_the_program_was_ended() {
     send(&service, "cart-1", "gate");
     cart.until("it drives", |state| state["driving"] == true);
     within("it is said", || (cell(&service, "cart-1", "doing") == "drives to gate").then_some(()));
-    program.ends();
+    let log = program.ends();
     for vehicle in ["cart-1", "cart-2"] {
-        assert_eq!(cell(&service, vehicle, "doing"), "nobody drives it: adit fleet was ended");
+        assert_eq!(cell(&service, vehicle, "doing"), "nobody drives it: adit fleet was ended", "{log}");
         assert_eq!(cell(&service, vehicle, "connection"), Value::Null);
     }
     assert_eq!(cell(&service, "cart-1", "goal"), "gate", "it is still to go there");

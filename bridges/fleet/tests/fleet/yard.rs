@@ -133,10 +133,11 @@ impl FleetProgram {
     }
 
     /// Ends it as a service manager does, and waits until it has ended.
-    pub fn ends(mut self) {
+    pub fn ends(mut self) -> String {
         let kill = Command::new("kill").args(["-TERM", &self.pid().to_string()]).status().unwrap();
         assert!(kill.success());
         assert!(self.running.0.wait().unwrap().success(), "{}", self.log());
+        self.log()
     }
 
     pub fn pid(&self) -> u32 {
