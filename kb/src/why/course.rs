@@ -5,6 +5,7 @@
 use std::sync::Arc;
 
 use adit_db::course::Course as Row;
+use adit_engine::Value;
 use serde_json::json;
 
 use super::{Facts, Reasoned, Why, cell};
@@ -64,6 +65,9 @@ pub fn why_way(
     };
     let is_asked = |said: &&Arc<Said>| at.is_none_or(|at| said.place == at.trim());
     let mut sentences = vec![format!("The route from {start} to {goal} costs {}.", number(cost))];
+    if at.is_none() {
+        sentences.extend(pulled_tight(&said, cost));
+    }
     for said in said.iter().filter(is_asked) {
         let sentence = in_short(said, &said.place).why;
         if sentences.last() != Some(&sentence) {
@@ -90,6 +94,20 @@ fn on(place: &str, row: &Row) -> String {
 }
 
 /// By which rule a route passes there.
+/// That the stretches of a path over a floor plan weigh more in all than the path: each leads to the middle of a doorway.
+fn pulled_tight(said: &[Arc<Said>], cost: f64) -> Option<String> {
+    let weight = |said: &Arc<Said>| {
+        let fact = said.facts.iter().find(|fact| fact.property == "weight")?;
+        if let Value::Number(weight) = fact.value { Some(weight) } else { None }
+    };
+    let sum: f64 = said.iter().filter_map(weight).sum();
+    let is_over_adits = said.iter().any(|said| said.place.starts_with("region "));
+    (is_over_adits && sum - cost > 1e-3).then(|| {
+        let (sum, saved) = (number(sum), number(sum - cost));
+        format!("Its stretches lead to the middle of each doorway and weigh {sum} in all; pulled tight, it is {saved} shorter.")
+    })
+}
+
 fn in_short(said: &Said, from: &str) -> Reasoned {
     let decided = ["corner_x", "margin_x", "weight"].into_iter().find_map(|property| {
         let fact = said.facts.iter().find(|fact| fact.property == property)?;
