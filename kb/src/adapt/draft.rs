@@ -1,5 +1,6 @@
 //! What a file says of a cell, each value with its place, and what is wrong with it.
 
+use std::f64::consts::PI;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -9,12 +10,16 @@ use adit_planners::pose::Pose;
 use adit_planners::read::{Code, Located, Problem, Text};
 
 use super::cell::{Goal, RobotKind, Target};
+use crate::words::number::number;
 
-/// No cell is larger: metres from the origin of its frame, and across an arm.
+/// No cell is larger: metres from the origin of its frame.
 const LARGEST_M: f64 = 1e4;
 
-/// Joints do not turn farther, radians.
-const FARTHEST_RAD: f64 = 1e3;
+/// No arm is longer, metres: links of more are most likely in millimetres, and would be searched for hours.
+const LONGEST_M: f64 = 100.0;
+
+/// Joints do not turn farther, radians: four times each way. Degrees are more.
+const FARTHEST_RAD: f64 = 8.0 * PI;
 
 /// Reads on where something is wrong, and gathers what.
 pub(super) struct Draft<'t> {
@@ -39,7 +44,11 @@ impl Draft<'_> {
     fn within(&mut self, what: &str, span: &Range<usize>, numbers: &[f64], most: f64) -> bool {
         let far = numbers.iter().find(|number| number.abs() > most);
         if let Some(far) = far {
-            self.refuse(Code::Impossible, span, format!("{what} has {far:e}; expected numbers up to {most}"));
+            self.refuse(
+                Code::Impossible,
+                span,
+                format!("{what} has {far:e}; expected numbers up to {}", number(most)),
+            );
         }
         far.is_none()
     }
@@ -49,10 +58,15 @@ impl Draft<'_> {
         let limits: Vec<f64> = draft.limits.value.iter().flatten().copied().collect();
         let reach: f64 = draft.lengths.value.iter().sum();
         let are_sane = [
-            self.within("the sum of the links", &draft.lengths.span, &[reach], LARGEST_M),
-            self.within("the radius of the links", &draft.radius.span, &[draft.radius.value], LARGEST_M),
+            self.within("the sum of the links in metres", &draft.lengths.span, &[reach], LONGEST_M),
+            self.within(
+                "the radius of the links in metres",
+                &draft.radius.span,
+                &[draft.radius.value],
+                LONGEST_M,
+            ),
             self.within("the base", &draft.base.span, &draft.base.value, LARGEST_M),
-            self.within("`joint_limits`", &draft.limits.span, &limits, FARTHEST_RAD),
+            self.within("`joint_limits` in radians", &draft.limits.span, &limits, FARTHEST_RAD),
         ];
         if are_sane.contains(&false) {
             return None;

@@ -150,11 +150,15 @@ fn cells_larger_than_any() {
     scenario(
         "[1.0, 0.9]",
         "[1e300, 0.9]",
-        &[":5:", "the sum of the links has 1e300; expected numbers up to 10000"],
+        &[":5:", "the sum of the links in metres has 1e300; expected numbers up to 100"],
     );
     scenario("[-1.3, 0.7]", "[-1.3, 1e6]", &["a corner of obstacle 3 has 1e6"]);
-    world("[0.9, 0.8]", "[1e6, 0.8]", &["the sum of the links has"]);
-    world("[[-3.1, 3.1]", "[[-3.1, 1e9]", &["`joint_limits` has 1e9; expected numbers up to 1000"]);
+    world("[0.9, 0.8]", "[1e6, 0.8]", &["the sum of the links in metres has"]);
+    world(
+        "[[-3.1, 3.1]",
+        "[[-3.1, 1e9]",
+        &["`joint_limits` in radians has 1e9; expected numbers up to 25.133"],
+    );
 }
 
 #[test]
