@@ -23,6 +23,10 @@ const NEAR_M: f64 = 1.0;
 /// A leg that comes so near to a closed boundary, or goes so deep into a room, meets it, metres.
 const TOUCHES_M: f64 = 1e-9;
 
+/// In so many parts a leg is looked at outside of rooms, and by how much nearer a room is to be to be the nearest, metres.
+const LOOKS: u32 = 16;
+const NEARER_M: f64 = 1e-5;
+
 impl SiteGraph {
     /// The rooms in which ways of a robot start or end: a room itself; for a point one room of each state and facing that
     /// holds it, and, where none does and it fits there, those that a straight leg joins with it.
@@ -170,7 +174,7 @@ impl SiteGraph {
             return false;
         }
         let is_shut = |other: RoomIndex| !is_weighed(&self[other]) && goes_into(leg, self.outline(other));
-        if layer.meeting(leg.bounds()).any(is_shut) {
+        if layer.meeting(leg.bounds()).any(is_shut) || self.leads_beside_shut(layer, leg) {
             return false;
         }
         let to = self.outline(room).centre();
@@ -183,6 +187,22 @@ impl SiteGraph {
                     || area.contains(to)
                     || self.is_entered(layer, |p| area.contains(p), area.enclosing_rect())
             })
+    }
+
+    /// Whether a leg leads outside of all rooms past one that is not entered, and nearer to it than to any other: what keeps one
+    /// out of that room keeps one out of what lies between it and the wall.
+    fn leads_beside_shut(&self, layer: &Layer, leg: Segment) -> bool {
+        let is_nearest = |p: Point| {
+            let mut shut = f64::INFINITY;
+            for (room, metres) in layer.nearest(&self.graph, p) {
+                if is_weighed(&self[room]) {
+                    return metres > shut + NEARER_M;
+                }
+                shut = shut.min(metres);
+            }
+            shut.is_finite()
+        };
+        (0..=LOOKS).any(|look| is_nearest(leg.at(f64::from(look) / f64::from(LOOKS))))
     }
 
     /// Whether a room in an area is entered: one of the layer, or of any where the layer has none there.

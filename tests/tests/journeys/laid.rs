@@ -187,3 +187,16 @@ fn a_picture_tells_apart_what_is_closed_and_areas_of_each_kind() {
     site.adit("open", &["doorway 1"]).expect_status(0);
     assert!(!drawn().contains(">closed<"));
 }
+
+/// Between a wall and the rooms there is next to nothing: where a body just touches the wall, it is beside them.
+#[test]
+fn whoever_touches_a_wall_is_in_an_area_to_keep_out_of_as_well_as_beside_it() {
+    let site = starter();
+    site.adit("lay", &["area", "stairs", "0.5,3.5 1.5,4.5", "--kind", "keep-out"]).expect_status(0);
+    // squatting it is 0.8 m wide, and 0.3 m of that would be in the area
+    let refused = site.adit("route", &["window", "0.4,4"]).expecting(1).stdout;
+    assert!(refused.contains("the nearest point from which ways lead on is (0.325, 4)"), "{refused}");
+    // sideways it is 0.35 m wide, and passes
+    let beside = site.adit("route", &["window", "0.3,4", "--json"]).expecting(0).json();
+    assert_eq!(beside["waypoints"].as_array().unwrap().last().unwrap()["state"], "SIDE-STAND", "{beside:#}");
+}
