@@ -198,7 +198,11 @@ impl Live {
         if let Some(outcome) = self.follow(Some((edit, author)))? {
             return Ok(outcome);
         }
-        self.reopen()?;
+        if self.reopen().is_err() {
+            // what keeps the site from being opened may be what the edit mends
+            let site = KnowledgeBase::clone(&self.site);
+            return self.edit_with_files(&site, edit, author);
+        }
         let outcome = self.follow(Some((edit, author)))?.ok_or_else(|| {
             let help = Some("try again".to_owned());
             Error::said(Code::LiveStale, "the site's tables were edited meanwhile", help)

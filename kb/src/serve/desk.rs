@@ -245,13 +245,13 @@ impl Desk {
         if self.live.has_new_files() {
             self.files_are_taken();
         }
-        let source = if self.shared.settings.shared.is_some() { Source::Database } else { Source::Site };
+        let source = if self.shared.settings.shared.is_some() { Source::Database } else { Source::Tables };
         match outcome {
             Ok(Some(outcome)) => self.publish(&outcome, &Cause::of(&outcome)),
             Ok(None) => self.show_routes(),
             Err(error) => return self.shared.say_problems(source, Problem::all(error.problems())),
         }
-        if source == Source::Database && !self.live.is_cut_off() {
+        if !self.live.is_cut_off() {
             self.shared.say_problems(source, Vec::new());
         }
     }

@@ -77,8 +77,10 @@ pub enum Source {
     Tokens,
     /// Where the site is kept, with others who write it.
     Database,
-    /// The site: its rules, map, settings, tables.
+    /// The site: its rules, map, settings.
     Site,
+    /// What other programs wrote into its tables.
+    Tables,
     /// The last edit, where it was the place to save it that failed.
     Saving,
 }

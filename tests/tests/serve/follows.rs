@@ -1,5 +1,6 @@
 //! Kept routes follow while edits and questions go on.
 
+use std::process::Command;
 use std::time::{Duration, Instant};
 
 use adit_tests::TestSite;
@@ -79,4 +80,36 @@ fn a_database_is_served_by_one_service_at_a_time() {
     site.adit("tune", &["robots", "SQUAT", "hardness", "3"]).expect_status(0);
     service.kill();
     Service::start(&site).end();
+}
+
+/// What another program wrote keeps the site from being derived: whoever edits over HTTP can take it away, and nothing is lost.
+#[test]
+fn an_edit_mends_what_another_program_wrote_and_rules_cannot_take() {
+    let site =
+        TestSite::example("starter").with("site.toml", "map = \"map.toml\"\nrobots = \"robots.toml\"\n");
+    let site = site.built();
+    let service = Service::start(&site);
+    let before = cost(&service, "home", "window");
+    let mut events = service.events();
+    let wrong = "INSERT INTO laid (name, what, kind, outline, properties, why) VALUES \
+                 ('bad', 'area', 'floor', '[[7,1],[8,1],[8,2],[7,2]]', '{\"hardness_factor\":-3}', '')";
+    let wrote = Command::new("sqlite3").arg(site.path().join("site.db")).arg(wrong).status();
+    assert!(wrote.unwrap().success());
+    let said = events.next("problems");
+    assert_eq!(said["problems"][0]["code"], "rule/hardness", "{said}");
+    assert_eq!(
+        service.ask("POST", "/api/edits", Some(&hardness("STAND", 1.5))).0,
+        422,
+        "it cannot be derived"
+    );
+    let (status, lifted) = service.ask("DELETE", "/api/areas/bad", None);
+    assert_eq!(status, 200, "{lifted}");
+    assert_eq!(cost(&service, "home", "window"), before);
+    loop {
+        let said = events.next("problems");
+        if said["problems"].as_array().unwrap().is_empty() {
+            break;
+        }
+    }
+    assert_eq!(service.ask("POST", "/api/edits", Some(&hardness("STAND", 1.5))).0, 200);
 }
