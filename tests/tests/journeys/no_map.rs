@@ -197,3 +197,18 @@ fn a_rule_that_says_several_things_of_one_object_is_said_to_take_them_from_sever
     let said = ["since one rule says several things", "`least` or `most` in place of `each`"];
     assert!(said.iter().all(|words| why.contains(words)) && !why.contains("priority"), "{why}");
 }
+
+/// In a test as in the database: what rules tell objects of has numbered rows.
+#[test]
+fn what_a_reaction_orders_again_is_tested_as_it_is_told() {
+    let rules = "on \"low stock\" each p in PRODUCTS where p.stock < 5 then { tell(\"REORDER\", #{ product: p.product, pieces: 50 }); }\n\
+                 rule \"urgent\" each r in REORDER then { r.urgent = r.pieces > 40.0; }\n";
+    let test = "[given]\nPRODUCTS = [{ product = \"kettle\", price = 40.0, grams = 1200.0, stock = 1 }]\n\
+                [[test]]\nname = \"what runs out is ordered again\"\n[test.conclude]\nREORDER.1 = { urgent = true }\n";
+    let site = shop().with("rules/reorder.rhai", rules).with("rules/tests/reorder.toml", test).built();
+    site.adit("test", &[]).expect_status(0);
+    let urgent = "SELECT object, value FROM conclusions WHERE property = 'urgent'";
+    assert!(site.sqlite3(urgent).contains(&"reorder.1|1".to_owned()), "{:?}", site.sqlite3(urgent));
+    site.write("rules/tests/reorder.toml", test.replace("urgent = true", "urgent = false"));
+    site.adit("test", &[]).expect_status(1);
+}
