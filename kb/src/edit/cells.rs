@@ -64,6 +64,15 @@ pub(crate) fn columns(tx: &mut Tx<'_>, table: &str) -> Result<Vec<RelationColumn
         return Err(Error::said(Code::EditDerived, message, Some(help)));
     }
     if !TUNABLE.contains(&table) && !is_map && !own.iter().any(|known| known == table) {
+        if tx.relations()?.iter().any(|known| known.name == table) {
+            let help = match table {
+                "laid" | "drawn" => Some("`adit lay` and `adit lift` edit what lies over the map"),
+                "told" => Some("`adit tell` tells facts, and takes them back"),
+                _ => None,
+            };
+            let message = format!("`{table}` is not edited row by row");
+            return Err(Error::said(Code::EditDerived, message, help.map(str::to_owned)));
+        }
         let help = did_you_mean(table, TUNABLE.into_iter().chain(own.iter().map(String::as_str)));
         return Err(Error::said(Code::EditUnknownTable, format!("there is no table `{table}`"), help));
     }

@@ -196,6 +196,9 @@ fn whoever_touches_a_wall_is_in_an_area_to_keep_out_of_as_well_as_beside_it() {
     // squatting it is 0.8 m wide, and 0.3 m of that would be in the area
     let refused = site.adit("route", &["window", "0.4,4"]).expecting(1).stdout;
     assert!(refused.contains("the nearest point from which ways lead on is (0.325, 4)"), "{refused}");
+    site.adit("tune", &["laid", "stairs", "kind", "wet"])
+        .expecting(2)
+        .complains(&["`laid` is not edited row by row", "`adit lay` and `adit lift`"]);
     // sideways it is 0.35 m wide, and passes
     let beside = site.adit("route", &["window", "0.3,4", "--json"]).expecting(0).json();
     assert_eq!(beside["waypoints"].as_array().unwrap().last().unwrap()["state"], "SIDE-STAND", "{beside:#}");
