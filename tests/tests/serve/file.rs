@@ -1,6 +1,7 @@
 //! What is of a site's own file alone: of one in PostgreSQL there is no file that others would write, or that would be all there is.
 
 use std::path::Path;
+use std::process::Command;
 
 use adit_db::Store;
 use adit_tests::TestSite;
@@ -8,7 +9,7 @@ use adit_tests::service::Service;
 use serde_json::json;
 
 use crate::requests::follow;
-use crate::suite::{hardness, rules, served};
+use crate::suite::{cost, hardness, rules, served};
 
 /// What the file alone says of a cell that was edited.
 fn hardness_in(database: &Path) -> String {
@@ -145,4 +146,66 @@ fn a_reader_of_somebody_elses_does_not_keep_edits_out_of_the_file() {
         tx.rooms()
     });
     assert!(!read.unwrap().is_empty());
+}
+
+/// A table that no rule reads is somebody's all the same: a program that drives vehicles waits for its goals.
+#[test]
+fn an_edit_from_the_shell_from_which_nothing_follows_is_heard_of() {
+    let site = TestSite::example("paper");
+    site.write("tables/vehicles.csv", "vehicle,goal\nv1,e\n");
+    let site = site.built();
+    let service = Service::start(&site);
+    let mut events = service.events();
+    let hello = events.next("hello");
+    site.adit("tune", &["vehicles", "v1", "goal", "f"]).expect_status(0);
+    let changed = events.next("changed");
+    assert_eq!((&changed["who"], &changed["rooms"]), (&"cli".into(), &0.into()), "{changed}");
+    assert!(changed["generation"].as_u64() > hello["generation"].as_u64(), "{changed}");
+    site.adit("undo", &[]).expect_status(0);
+    assert!(events.next("changed")["generation"].as_u64() > changed["generation"].as_u64());
+}
+
+#[test]
+fn a_database_is_served_by_one_service_at_a_time() {
+    let site = TestSite::example("paper").built();
+    let service = Service::start(&site);
+    Service::refused(&site, &["--listen", "127.0.0.1:0"])
+        .expect_status(2)
+        .complains(&["database/served", "site.db already"]);
+    // whoever edits from the shell is no service
+    site.adit("tune", &["robots", "SQUAT", "hardness", "3"]).expect_status(0);
+    service.kill();
+    Service::start(&site).end();
+}
+
+/// What another program wrote keeps the site from being derived: whoever edits over HTTP can take it away, and nothing is lost.
+#[test]
+fn an_edit_mends_what_another_program_wrote_and_rules_cannot_take() {
+    let site =
+        TestSite::example("starter").with("site.toml", "map = \"map.toml\"\nrobots = \"robots.toml\"\n");
+    let site = site.built();
+    let service = Service::start(&site);
+    let before = cost(&service, "home", "window");
+    let mut events = service.events();
+    let wrong = "INSERT INTO laid (name, what, kind, outline, properties, why) VALUES \
+                 ('bad', 'area', 'floor', '[[7,1],[8,1],[8,2],[7,2]]', '{\"hardness_factor\":-3}', '')";
+    let wrote = Command::new("sqlite3").arg(site.path().join("site.db")).arg(wrong).status();
+    assert!(wrote.unwrap().success());
+    let said = events.next("problems");
+    assert_eq!(said["problems"][0]["code"], "rule/hardness", "{said}");
+    assert_eq!(
+        service.ask("POST", "/api/edits", Some(&hardness("STAND", 1.5))).0,
+        422,
+        "it cannot be derived"
+    );
+    let (status, lifted) = service.ask("DELETE", "/api/areas/bad", None);
+    assert_eq!(status, 200, "{lifted}");
+    assert_eq!(cost(&service, "home", "window"), before);
+    loop {
+        let said = events.next("problems");
+        if said["problems"].as_array().unwrap().is_empty() {
+            break;
+        }
+    }
+    assert_eq!(service.ask("POST", "/api/edits", Some(&hardness("STAND", 1.5))).0, 200);
 }
