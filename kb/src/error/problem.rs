@@ -51,9 +51,13 @@ impl fmt::Display for Problem {
 }
 
 impl Problem {
-    /// Whether it is nothing that a caller or an editor of files did wrong.
-    pub(crate) fn is_of_the_service(&self) -> bool {
-        self.code.is_some_and(|code| code.http().is_server_error())
+    /// Whether it is the place where edits are saved that is at fault, and not what a caller or a file says.
+    pub(crate) fn is_of_the_database(&self) -> bool {
+        let is_it = |code: Code| {
+            let (family, _) = code.as_str().split_once('/').unwrap_or((code.as_str(), ""));
+            code.http().is_server_error() && ["database", "postgres"].contains(&family)
+        };
+        self.code.is_some_and(is_it)
     }
 
     pub(crate) fn of(found: &Finding) -> Self {

@@ -9,6 +9,7 @@ use std::time::{Duration, Instant};
 
 use adit_db::history::{Author, Edit as Entry};
 use adit_db::tree::TreeRow;
+use axum::http::StatusCode;
 use jiff::Timestamp;
 
 use super::event::{Changed, Event};
@@ -34,10 +35,16 @@ pub struct Desk {
     eye: Eye,
     /// Which file the database is.
     database: Option<u64>,
+    /// When there was last no saving an edit.
+    unsaved: Option<Instant>,
     /// Files as they were when they were looked at last, and as they were when they were last taken or refused.
     looked: Option<Files>,
     taken: Option<Files>,
 }
+
+/// After so long an edit that could not be saved says no more of whether the next one can: who sends none to a service that is
+/// not ready would never hear that it is.
+const REMEMBERED: Duration = Duration::from_secs(30);
 
 /// How long the right to edit is waited for, where other services have it.
 const LEADING: Duration = Duration::from_secs(10);
@@ -100,7 +107,8 @@ pub fn seen(live: &Live) -> Seen {
 pub fn start(live: Live, shared: Arc<Shared>, jobs: Receiver<Job>) -> Result<thread::JoinHandle<Live>> {
     let work = move || {
         let database = identity(live.site().database());
-        let mut desk = Desk { database, live, shared, eye: Eye::default(), looked: None, taken: None };
+        let mut desk =
+            Desk { database, live, shared, eye: Eye::default(), unsaved: None, looked: None, taken: None };
         desk.taken = Some(desk.look());
         desk.work(&jobs);
         desk.live
@@ -138,9 +146,14 @@ impl Desk {
     pub fn edit(&mut self, edit: &Edit, author: &Author) -> Result<Outcome> {
         let edited = self.save(edit, author);
         let problems = edited.as_ref().err().map_or_else(Vec::new, |error| Problem::all(error.problems()));
-        // who is in the way for a moment is no fault of the place
-        let is_full = |of: &Problem| of.is_of_the_service() && of.code != Some(Code::DatabaseLocked);
-        self.shared.say_problems(Source::Saving, problems.into_iter().filter(is_full).collect());
+        // who is in the way for a moment is no fault of the place, and PostgreSQL is looked after by itself
+        let is_fault = |of: &Problem| {
+            let is_lasting = |code: Code| code.http() == StatusCode::INTERNAL_SERVER_ERROR;
+            of.is_of_the_database() && of.code.is_some_and(is_lasting)
+        };
+        let problems: Vec<Problem> = problems.into_iter().filter(is_fault).collect();
+        self.unsaved = (!problems.is_empty()).then(Instant::now);
+        self.shared.say_problems(Source::Saving, problems);
         edited
     }
 
@@ -229,6 +242,10 @@ impl Desk {
             self.take_files();
         }
         self.looked = Some(now);
+        if self.unsaved.is_some_and(|failed| failed.elapsed() > REMEMBERED) {
+            self.unsaved = None;
+            self.shared.say_problems(Source::Saving, Vec::new());
+        }
         if let Err(error) = self.check_database() {
             return self.say_problems(Problem::all(error.problems()));
         }

@@ -275,7 +275,7 @@ impl Shared {
     /// What keeps edits from being saved.
     pub fn hindrances(&self) -> Vec<Problem> {
         let mut problems = self.problems();
-        problems.retain(Problem::is_of_the_service);
+        problems.retain(Problem::is_of_the_database);
         problems
     }
 

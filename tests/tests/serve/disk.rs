@@ -1,6 +1,7 @@
 //! A disk that fails once is no failure for ever.
 
 use std::process::Command;
+use std::time::{Duration, Instant};
 
 use adit_tests::database::on_postgres;
 use adit_tests::service::Service;
@@ -42,6 +43,18 @@ fn edits_go_on_once_the_disk_has_room_again() {
         let (status, answer) = edit(value);
         assert_eq!(status, 200, "after the disk was full: {answer}");
         assert_eq!(service.ask("GET", "/api/ready", None).0, 200);
+    }
+    if !on_postgres() {
+        // whoever sends no edits to a service that is not ready hears in time that it is
+        room_for_files(&service, "4096");
+        assert_eq!(edit(9.0).0, 500);
+        room_for_files(&service, "unlimited");
+        assert_eq!(service.ask("GET", "/api/ready", None).0, 503);
+        let began = Instant::now();
+        while service.ask("GET", "/api/ready", None).0 != 200 {
+            assert!(began.elapsed() < Duration::from_mins(2), "it is never ready again");
+            std::thread::sleep(Duration::from_millis(200));
+        }
     }
     service.end();
     // in PostgreSQL there was room for all of them
