@@ -47,6 +47,9 @@ const MOST_ALIKE: usize = 4;
 /// So many ways into a room, where ways to all are asked for.
 const MOST_INTO_ROOM: usize = 4;
 
+/// Where ways to so many goals are wanted, the search is led by where they lie: more lie in all directions.
+const FEW: usize = 16;
+
 /// No node, before the first.
 pub(super) const NO_NODE: u32 = u32::MAX;
 
@@ -131,6 +134,8 @@ pub(super) struct Search<'g> {
     saved_by_arcs: f64,
     /// What a way may cost before it is pulled tight and still be the best.
     most: f64,
+    /// The same of ways to each goal, where those to all of a few are wanted.
+    most_to: Vec<f64>,
     nodes: Vec<Node>,
     /// Goals that were seen, with where from.
     found: Vec<(usize, Found)>,
@@ -218,6 +223,7 @@ impl<'g> Search<'g> {
             least_per_m: graph.least_per_m(),
             saved_by_arcs,
             most: Self::slack(limit, saved_by_arcs),
+            most_to: vec![f64::INFINITY; goals.len()],
             nodes: Vec::new(),
             found: Vec::new(),
             queue: BinaryHeap::new(),
@@ -253,7 +259,8 @@ impl<'g> Search<'g> {
         let mut missing = self.goals.len();
         let mut is_last = false;
         while let Some(candidate) = self.queue.pop() {
-            if self.is_too_dear(candidate.least) {
+            if candidate.least > self.most {
+                self.outcome.is_cut = true;
                 break;
             }
             match candidate.what {
@@ -274,7 +281,13 @@ impl<'g> Search<'g> {
                         (self.most, is_last) = (self.most.min(most), true);
                     }
                 }
-                What::Node(index) => self.expand(index),
+                What::Node(index) => match self.least_by(&self.nodes[index as usize]) {
+                    Some(least) if least > candidate.least => {
+                        self.queue.push(Candidate { least, ..candidate });
+                    }
+                    Some(_) => self.expand(index),
+                    None => self.outcome.is_cut = true,
+                },
             }
         }
         let graph = self.graph;
@@ -287,15 +300,10 @@ impl<'g> Search<'g> {
     }
 
     fn push(&mut self, node: Node) {
-        let per_m = self.graph.per_m(node.room);
-        let seen = match &node.view {
-            View::Through(gap) => gap.segment(),
-            _ => Segment::new(node.root, node.root),
-        };
-        let least = node.cost + seen.distance(node.root) * per_m + self.remaining(node.room, seen);
-        if self.is_too_dear(least) {
+        let Some(least) = self.least_by(&node) else {
+            self.outcome.is_cut = true;
             return;
-        }
+        };
         let index = self.nodes.len() as u32;
         self.nodes.push(node);
         self.queue.push(Candidate { least, what: What::Node(index) });
@@ -517,10 +525,12 @@ impl<'g> Search<'g> {
 
     fn arrive_at(&mut self, goal: usize, found: Found) {
         if self.outcome.goals[goal].len() < MOST_WAYS {
-            if self.wanted == Wanted::One {
+            if self.wanted == Wanted::One || self.is_led() {
                 let slid = self.targets.iter().map(|(room, _)| slid_in(self.graph, *room));
                 let slid = slid.fold(self.slid(&found), f64::max);
-                self.most = self.most.min(Self::slack(found.cost, self.saved_by_arcs) + slid);
+                let limit = Self::slack(found.cost, self.saved_by_arcs) + slid;
+                let most = if self.wanted == Wanted::One { &mut self.most } else { &mut self.most_to[goal] };
+                *most = most.min(limit);
             }
             let what = What::Goal(self.found.len() as u32);
             self.found.push((goal, found));

@@ -4,7 +4,7 @@
 use super::super::cone::Segment;
 use super::super::cost::hardly_more;
 use super::super::parts::{Goal, RoomIndex};
-use super::{Node, SLACK, Search, Wanted};
+use super::{FEW, Node, SLACK, Search, View, Wanted};
 use crate::geometry::Rect;
 
 impl Search<'_> {
@@ -13,30 +13,48 @@ impl Search<'_> {
         hardly_more(cost * (1.0 + SLACK) + saved_by_arcs)
     }
 
-    /// Whether a way that costs so much at least need not be looked for.
-    pub(super) fn is_too_dear(&mut self, least: f64) -> bool {
-        let is_too_dear = least > self.most;
-        self.outcome.is_cut |= is_too_dear;
-        is_too_dear
+    /// Whether what is known of where goals lie decides what is looked at first.
+    pub(super) fn is_led(&self) -> bool {
+        let is_wanted = match self.wanted {
+            Wanted::One => true,
+            Wanted::Goals => self.goals.len() <= FEW,
+            Wanted::Rooms => false,
+        };
+        is_wanted && self.least_per_m > 0.0
     }
 
-    /// Whether what costs so much at least can be left out unseen: it is known that ways were left out, or one was found.
-    pub(super) fn is_left_out(&self, least: f64) -> bool {
-        least > self.most && (self.outcome.is_cut || !self.found.is_empty())
+    /// What a way by a node costs at least; `None` where that is too much for each goal.
+    pub(super) fn least_by(&self, node: &Node) -> Option<f64> {
+        let seen = match &node.view {
+            View::Through(gap) => gap.segment(),
+            _ => Segment::new(node.root, node.root),
+        };
+        let cost = node.cost + seen.distance(node.root) * self.graph.per_m(node.room);
+        self.least_from(cost, (node.room, seen))
     }
 
-    /// A lower limit of what remains in a room from what is seen of a segment.
-    pub(super) fn remaining(&self, room: RoomIndex, seen: Segment) -> f64 {
-        if self.wanted != Wanted::One || self.least_per_m <= 0.0 {
-            return 0.0;
+    /// What a way costs at least that has come to a segment in a room at some cost; `None` where that is too much for each goal.
+    fn least_from(&self, cost: f64, (room, seen): (RoomIndex, Segment)) -> Option<f64> {
+        if !self.is_led() {
+            return (cost <= self.most).then_some(cost);
         }
         let through = self.through.as_ref().filter(|(before, _)| before.contains(room.index()));
-        let to = |goal: &Goal| {
-            let Some(at) = goal.at else { return 0.0 };
-            let by = through.map_or(0.0, |(_, by)| seen.bounds().gap(by) + by.nearest_to(at).distance(at));
-            seen.distance(at).max(by)
+        let by = |(goal, most): (&Goal, &f64)| {
+            let remaining = goal.at.map_or(0.0, |at| {
+                let by =
+                    through.map_or(0.0, |(_, by)| seen.bounds().gap(by) + by.nearest_to(at).distance(at));
+                seen.distance(at).max(by)
+            });
+            let least = cost + remaining * self.least_per_m;
+            (least <= most.min(self.most)).then_some(least)
         };
-        self.goals.iter().map(to).fold(f64::INFINITY, f64::min) * self.least_per_m
+        self.goals.iter().zip(&self.most_to).filter_map(by).min_by(f64::total_cmp)
+    }
+
+    /// Whether a way that has come to a segment in a room at some cost can be left out unseen: it is known that ways were left
+    /// out, or one was found.
+    pub(super) fn is_left_out(&self, cost: f64, at: (RoomIndex, Segment)) -> bool {
+        (self.outcome.is_cut || !self.found.is_empty()) && self.least_from(cost, at).is_none()
     }
 
     /// Whether each point of a rectangle is reached in a room at less cost than by a change there from a node; `least` is what that
@@ -62,10 +80,7 @@ impl Search<'_> {
         (room, seen): (RoomIndex, Segment),
         least: f64,
     ) -> bool {
-        if self.most.is_infinite() {
-            return false;
-        }
         let way = seen.distance(node.root) * self.graph.per_m(node.room);
-        self.is_left_out(node.cost + way + least + self.remaining(room, seen))
+        self.is_left_out(node.cost + way + least, (room, seen))
     }
 }

@@ -31,8 +31,7 @@ impl Search<'_> {
                     || is_cheaper_from(&search.offered[room.index()], p, limit, there)
             };
             // too dear, or reached at less cost otherwise
-            let remaining = search.remaining(room, Segment::new(p, p));
-            if search.is_left_out(cost + least + remaining)
+            if search.is_left_out(cost + least, (room, Segment::new(p, p)))
                 || is_vain(search, least)
                 || search.is_cheaper_in(node.room, p, hardly_less(cost), here)
                 || graph.is_on_wall(room, p)
