@@ -1,6 +1,7 @@
 //! Classes of objects as a host asserts them.
 
 use std::collections::HashSet;
+use std::sync::Arc;
 
 use thiserror::Error;
 
@@ -161,7 +162,8 @@ pub(crate) struct Table {
     pub(crate) name: String,
     pub(crate) key: Vec<usize>,
     pub(crate) names: Vec<String>,
-    pub(crate) columns: Vec<Column>,
+    /// Copies share each until one of them is told otherwise.
+    pub(crate) columns: Vec<Arc<Column>>,
     /// Columns in which NULL is a value, with that value.
     pub(crate) nulls: Vec<(usize, Cell)>,
     pub(crate) len: usize,
@@ -206,14 +208,14 @@ impl Table {
         }
         self.len = column.len();
         self.names.push(property);
-        self.columns.push(column);
+        self.columns.push(Arc::new(column));
         Ok(())
     }
 
     fn fill(&mut self, property: &str, value: &Value, symbols: &mut Symbols) -> Result<(), ClassError> {
         let cell = symbols.cell(value);
         let index = self.index(property)?;
-        let column = &mut self.columns[index];
+        let column = Arc::make_mut(&mut self.columns[index]);
         let holds = column.kind();
         if cell.kind().is_some_and(|kind| kind != holds) {
             let (class, property) = (self.name.clone(), property.to_owned());
@@ -237,7 +239,7 @@ impl Table {
 
     fn check_keys(&self, symbols: &Symbols) -> Result<(), ClassError> {
         if let [column] = *self.key
-            && let Column::Numbers(numbers) = &self.columns[column]
+            && let Column::Numbers(numbers) = &*self.columns[column]
             && numbers.first().is_none_or(|number| !number.is_nan())
             && numbers.is_sorted_by(|one, next| one < next)
         {
@@ -286,13 +288,13 @@ impl Table {
     /// The property that numbers the objects, and the next number; `None` where they are not numbered.
     pub(crate) fn next_number(&self) -> Option<(&str, f64)> {
         let &[at] = self.key.as_slice() else { return None };
-        let Column::Numbers(numbers) = &self.columns[at] else { return None };
+        let Column::Numbers(numbers) = &*self.columns[at] else { return None };
         let next = numbers.iter().copied().fold(0.0, f64::max).floor() + 1.0;
         self.numbered.then(|| (self.names[at].as_str(), next))
     }
 
     pub(crate) fn column(&self, property: &str) -> Option<&Column> {
-        self.names.iter().position(|name| name == property).map(|index| &self.columns[index])
+        self.names.iter().position(|name| name == property).map(|index| &*self.columns[index])
     }
 
     /// The key of an object as text, its parts joined with `/`; the row from 1 where the class has no key.
@@ -315,7 +317,7 @@ impl Table {
     pub(crate) fn row(&self, key: &str, symbols: &Symbols) -> Option<usize> {
         if let [column] = *self.key {
             // One column is looked through by value, not by text.
-            let cell = match &self.columns[column] {
+            let cell = match &*self.columns[column] {
                 Column::Numbers(_) => Cell::number(key.parse().ok()?),
                 Column::Texts(_) => Cell::Text(symbols.find(key)?),
                 Column::Truths(_) => Cell::Truth(key.parse().ok()?),

@@ -17,8 +17,9 @@ impl Symbol {
 
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Symbols {
-    texts: Vec<Arc<str>>,
-    ids: HashMap<Arc<str>, u32>,
+    // copies share them until one learns a new text
+    texts: Arc<Vec<Arc<str>>>,
+    ids: Arc<HashMap<Arc<str>, u32>>,
 }
 
 impl Symbols {
@@ -31,8 +32,8 @@ impl Symbols {
             return Symbol::UNKNOWN;
         }
         let text: Arc<str> = text.into();
-        self.texts.push(Arc::clone(&text));
-        self.ids.insert(text, id);
+        Arc::make_mut(&mut self.texts).push(Arc::clone(&text));
+        Arc::make_mut(&mut self.ids).insert(text, id);
         Symbol(id)
     }
 

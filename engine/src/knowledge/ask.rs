@@ -1,6 +1,7 @@
 //! Backward chaining: a value that is asked for, and nothing but what it needs.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 use std::time::Instant;
 
 use super::KnowledgeBase;
@@ -119,9 +120,10 @@ impl KnowledgeBase {
     ) -> Vec<(PropertyName, Vec<u32>)> {
         let rule = &base.rules[index];
         let node = &mut self.network.nodes[index];
-        let (Some(planned), Some(mut memory)) = (node.planned.take(), node.memory.take()) else {
+        let (Some(planned), Some(memory)) = (node.planned.take(), node.memory.take()) else {
             return self.awaited(rule, name, row);
         };
+        let mut memory = Arc::unwrap_or_clone(memory);
         let mut inputs: Vec<(PropertyName, Vec<u32>)> = vec![];
         let sets_first = memory.given.iter().any(|given| given.name == *name && given.variable == 0);
         let is_whole = memory.shape == Shape::Whole;
@@ -162,7 +164,7 @@ impl KnowledgeBase {
         }
         inputs.sort_by_key(|(input, _)| rule.reads.get(input).map(|at| (at.line(), at.position())));
         let node = &mut self.network.nodes[index];
-        (node.planned, node.memory) = (Some(planned), Some(memory));
+        (node.planned, node.memory) = (Some(planned), Some(Arc::new(memory)));
         inputs
     }
 
@@ -215,13 +217,14 @@ impl KnowledgeBase {
                 continue;
             }
             let Some(planned) = self.network.nodes[*index].planned.take() else { continue };
-            if let Some(mut memory) = self.network.nodes[*index].memory.take() {
+            if let Some(memory) = self.network.nodes[*index].memory.take() {
+                let mut memory = Arc::unwrap_or_clone(memory);
                 let drivers = drivers(&memory, &wanted);
                 if !drivers.is_none() {
                     self.spread(rule, &planned, &mut memory, &drivers, until, &mut wanted);
                     asked.insert(*index, drivers);
                 }
-                self.network.nodes[*index].memory = Some(memory);
+                self.network.nodes[*index].memory = Some(Arc::new(memory));
             }
             self.network.nodes[*index].planned = Some(planned);
         }

@@ -1,6 +1,7 @@
 //! Inference: what changed goes from facts to conclusions, rule by rule in the order of their dependencies.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 use std::time::Instant;
 
 use super::KnowledgeBase;
@@ -224,7 +225,7 @@ impl KnowledgeBase {
         }
         let Some(planned) = self.network.nodes[index].planned.take() else { return };
         let drivers = self.len(&rule.clauses[0].class).unwrap_or(0);
-        let memory = self.network.nodes[index].memory.take();
+        let memory = self.network.nodes[index].memory.take().map(Arc::unwrap_or_clone);
         let mut memory = memory.unwrap_or_else(|| Memory::new(rule, &planned.plan, drivers));
         let mut dirty = self.affected(run, rule, &planned, &mut memory);
         match &run.asked {
@@ -259,7 +260,7 @@ impl KnowledgeBase {
             }
         }
         let node = &mut self.network.nodes[index];
-        (node.planned, node.memory) = (Some(planned), Some(memory));
+        (node.planned, node.memory) = (Some(planned), Some(Arc::new(memory)));
     }
 
     /// Whether a rule has objects that nobody asked for before, and that are asked for now.
@@ -322,7 +323,7 @@ impl KnowledgeBase {
             let (Some(rows), Some(len)) = (stages.last(), self.len(&name.class)) else { continue };
             let class = changes.classes.entry(name.class.clone()).or_default();
             let mut rows = rows.clone().settle(len).rows(len);
-            rows.retain(|row| class.added.binary_search(row).is_err());
+            leave_out(&mut rows, &class.added);
             if !rows.is_empty() {
                 class.changed.insert(name.property.clone(), rows);
             }
@@ -330,7 +331,7 @@ impl KnowledgeBase {
         for (name, rows) in &run.reasons {
             let Some(len) = self.len(&name.class) else { continue };
             let mut rows = rows.clone().settle(len).rows(len);
-            rows.retain(|&row| (row as usize) < len);
+            rows.truncate(rows.partition_point(|&row| (row as usize) < len));
             if !rows.is_empty() {
                 changes.reasons.entry(name.class.clone()).or_default().insert(name.property.clone(), rows);
             }
@@ -343,4 +344,13 @@ impl KnowledgeBase {
             .collect();
         changes
     }
+}
+
+/// Takes some rows out of others; both ascend.
+fn leave_out(rows: &mut Vec<u32>, others: &[u32]) {
+    let mut others = others.iter().peekable();
+    rows.retain(|row| {
+        while others.next_if(|other| *other < row).is_some() {}
+        others.peek() != Some(&row)
+    });
 }

@@ -1,6 +1,7 @@
 //! One property that rules conclude or revise.
 
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 use super::dirty::Dirty;
 use crate::column::Column;
@@ -26,7 +27,7 @@ pub(crate) struct Derived {
     /// Whether what rules conclude stands before what was told, as its sources declare.
     pub(crate) rules_first: bool,
     /// The told or concluded values, then those after each level.
-    pub(crate) stages: Vec<Column>,
+    pub(crate) stages: Vec<Arc<Column>>,
     /// What has to be brought together anew, for each stage.
     pub(crate) pending: Vec<Dirty>,
     /// Whether the stages hold nothing yet, so that whatever comes counts as changed.

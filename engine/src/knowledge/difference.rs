@@ -5,10 +5,9 @@ use std::collections::HashMap;
 use super::dirty::Dirty;
 use super::pending::Pending;
 use crate::class::Table;
-use crate::column::Column;
 
 pub(super) fn difference(old: &Table, new: &Table) -> Pending {
-    let kinds = |table: &Table| table.columns.iter().map(Column::kind).collect::<Vec<_>>();
+    let kinds = |table: &Table| table.columns.iter().map(|column| column.kind()).collect::<Vec<_>>();
     if old.names != new.names || old.key != new.key || kinds(old) != kinds(new) {
         return Pending::anew();
     }

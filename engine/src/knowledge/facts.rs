@@ -1,5 +1,7 @@
 //! Facts told one by one: a cell, a new object, an object that is gone.
 
+use std::sync::Arc;
+
 use thiserror::Error;
 
 use super::KnowledgeBase;
@@ -90,7 +92,7 @@ impl KnowledgeBase {
             let value = value.map_or_else(String::new, |value| value.to_string());
             return Err(FactError::mistyped(class, property, column.kind(), value));
         }
-        column.set(row, cell);
+        Arc::make_mut(column).set(row, cell);
         if value.is_some() && !self.network.not_known.is_empty() {
             let key = held.table.key_text(row, &self.symbols.borrow());
             self.network.not_known.remove(&(PropertyName::new(class, property), key));
@@ -161,7 +163,7 @@ impl KnowledgeBase {
             }
         }
         for (column, cell) in table.columns.iter_mut().zip(row) {
-            column.push(cell);
+            Arc::make_mut(column).push(cell);
         }
         table.len += 1;
         let at = table.len - 1;
@@ -191,7 +193,7 @@ impl KnowledgeBase {
                 })
                 .collect();
             pending.move_rows(&moved);
-            table.columns.iter_mut().for_each(|column| column.remove(row));
+            table.columns.iter_mut().for_each(|column| Arc::make_mut(column).remove(row));
             table.len -= 1;
         }
         Ok(())
@@ -224,12 +226,12 @@ impl Table {
     /// The number of a new property, unknown for all objects.
     pub(crate) fn widen(&mut self, property: &str, kind: Type) -> usize {
         self.names.push(property.to_owned());
-        self.columns.push(Column::unknown(kind, self.len));
+        self.columns.push(Arc::new(Column::unknown(kind, self.len)));
         self.columns.len() - 1
     }
 
     /// Takes a property out that is no part of the key.
-    fn narrow(&mut self, at: usize) -> Column {
+    fn narrow(&mut self, at: usize) -> Arc<Column> {
         self.nulls.retain(|(column, _)| *column != at);
         let later = self.key.iter_mut().chain(self.nulls.iter_mut().map(|(column, _)| column));
         later.filter(|column| **column > at).for_each(|column| *column -= 1);

@@ -102,12 +102,14 @@ impl Memory {
         self.shape == Shape::Single && given.variable == 0
     }
 
+    /// Whether what [`firings_of`](Self::firings_of) looks up is there.
+    pub(crate) fn is_prepared(&self, given: usize) -> bool {
+        self.sets_own(&self.given[given]) || self.inverse[given].is_some()
+    }
+
     /// Makes what [`firings_of`](Self::firings_of) looks up.
     pub(crate) fn prepare(&mut self, given: usize, rows: usize) {
         let of = &self.given[given];
-        if self.sets_own(of) || self.inverse[given].is_some() {
-            return;
-        }
         let set: Vec<(u32, u32)> = (0..self.firings())
             .filter(|&firing| of.is_written(firing))
             .map(|firing| (self.witness(of.variable, firing), firing as u32))
@@ -131,16 +133,16 @@ impl Memory {
     }
 
     /// The firings that set this row, ascending.
-    pub(crate) fn firings_of(&self, given: usize, row: u32) -> Vec<u32> {
-        if self.sets_own(&self.given[given]) {
-            return Some(row).filter(|&row| self.given[given].is_written(row as usize)).into_iter().collect();
-        }
-        match &self.inverse[given] {
-            Some(Inverse { starts, firings }) if (row as usize) + 1 < starts.len() => {
-                firings[starts[row as usize] as usize..starts[row as usize + 1] as usize].to_vec()
+    pub(crate) fn firings_of(&self, given: usize, row: u32) -> impl Iterator<Item = u32> {
+        let is_own = self.sets_own(&self.given[given]);
+        let own = Some(row).filter(|&row| is_own && self.given[given].is_written(row as usize));
+        let others = match &self.inverse[given] {
+            Some(Inverse { starts, firings }) if !is_own && (row as usize) + 1 < starts.len() => {
+                &firings[starts[row as usize] as usize..starts[row as usize + 1] as usize]
             }
-            _ => vec![],
-        }
+            _ => &[],
+        };
+        own.into_iter().chain(others.iter().copied())
     }
 
     /// Takes over what an evaluation gave for some objects of the first clause; tells for each of `given` which

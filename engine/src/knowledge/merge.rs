@@ -1,6 +1,7 @@
 //! Brings together what was told of a property and what rules conclude.
 
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 use super::KnowledgeBase;
 use super::conclude::Run;
@@ -79,7 +80,8 @@ impl KnowledgeBase {
             .first()
             .is_some_and(|column| column.kind() == kind && column.len() == held.table.len);
         if !fits {
-            derived.stages = vec![Column::unknown(kind, held.table.len); derived.levels.len() + 1];
+            let unknown = Arc::new(Column::unknown(kind, held.table.len));
+            derived.stages = std::iter::repeat_n(unknown, derived.levels.len() + 1).collect();
             derived.pending.fill(Dirty::All);
             derived.fresh = true;
             for stage in 0..derived.stages.len() {
@@ -115,8 +117,8 @@ impl KnowledgeBase {
         for &rule in rules {
             let Some(memory) = &mut self.network.nodes[rule].memory else { continue };
             for at in 0..memory.given.len() {
-                if memory.given[at].name == *name {
-                    memory.prepare(at, len);
+                if memory.given[at].name == *name && !memory.is_prepared(at) {
+                    Arc::make_mut(memory).prepare(at, len);
                 }
             }
         }
@@ -126,10 +128,10 @@ impl KnowledgeBase {
         let kind = self.retyped(name, derived);
         if let Some(kind) = kind {
             let len = derived.stages[0].len();
-            derived.stages.iter_mut().for_each(|stage| *stage = Column::unknown(kind, len));
+            derived.stages.fill(Arc::new(Column::unknown(kind, len)));
             derived.pending.iter_mut().skip(1).for_each(|pending| *pending = Dirty::All);
         }
-        let before = std::mem::replace(&mut derived.stages[0], Column::unknown(Type::Number, 0));
+        let before = std::mem::replace(&mut derived.stages[0], Arc::new(Column::unknown(Type::Number, 0)));
         let fresh = std::mem::take(&mut derived.fresh) || kind.is_some();
         derived.disputes.clear();
         let straight = match self.straight(name, derived, &before).cloned() {
@@ -158,7 +160,7 @@ impl KnowledgeBase {
                 (column, differing)
             }
         };
-        derived.stages[0] = column;
+        derived.stages[0] = Arc::new(column);
         changed
     }
 
@@ -243,7 +245,7 @@ impl KnowledgeBase {
                 derived.disputes.remove(&row);
             }
             if !derived.stages[0].cell(row as usize).same(cell) {
-                derived.stages[0].set(row as usize, cell);
+                Arc::make_mut(&mut derived.stages[0]).set(row as usize, cell);
                 changed.add(row);
             }
         }
@@ -315,14 +317,18 @@ impl KnowledgeBase {
     }
 
     /// What a rule says of one object, with the firings that say it.
-    pub(super) fn claims(&self, name: &PropertyName, rule: usize, row: u32) -> Vec<(Cell, usize)> {
-        let Some(memory) = &self.network.nodes[rule].memory else { return vec![] };
-        let mut claims = vec![];
-        for (at, _) in memory.given.iter().enumerate().filter(|(_, given)| given.name == *name) {
-            for firing in memory.firings_of(at, row) {
-                claims.extend(memory.claim(at, firing as usize).map(|cell| (cell, firing as usize)));
-            }
-        }
-        claims
+    pub(super) fn claims(
+        &self,
+        name: &PropertyName,
+        rule: usize,
+        row: u32,
+    ) -> impl Iterator<Item = (Cell, usize)> {
+        self.network.nodes[rule].memory.iter().flat_map(move |memory| {
+            let given = memory.given.iter().enumerate().filter(|(_, given)| given.name == *name);
+            given.flat_map(move |(at, _)| {
+                let firings = memory.firings_of(at, row).map(|firing| firing as usize);
+                firings.filter_map(move |firing| Some((memory.claim(at, firing)?, firing)))
+            })
+        })
     }
 }

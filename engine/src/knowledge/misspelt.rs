@@ -72,7 +72,7 @@ impl KnowledgeBase {
         for table in self.held.values().map(|held| &held.table) {
             let columns = table.names.iter().zip(&table.columns).filter(|(name, _)| *name == property);
             for (_, column) in columns {
-                if let Column::Texts(symbols) = column {
+                if let Column::Texts(symbols) = &**column {
                     texts.extend(symbols.iter().filter(|&&symbol| symbol != Symbol::UNKNOWN));
                 }
             }

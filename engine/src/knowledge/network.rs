@@ -1,6 +1,7 @@
 //! The rules of a base with what is kept of each between inferences.
 
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 use super::memory::Memory;
 use crate::diagnostic::Diagnostic;
@@ -17,7 +18,8 @@ pub(super) struct Node {
     pub(super) needs: Vec<String>,
     pub(super) planned: Option<Planned>,
     pub(super) problems: Vec<Diagnostic>,
-    pub(super) memory: Option<Memory>,
+    /// Copies share it until one of them changes it.
+    pub(super) memory: Option<Arc<Memory>>,
 }
 
 #[derive(Clone, Debug)]

@@ -1,6 +1,7 @@
 //! What is kept between inferences follows where other rules are taken over, and where objects come, go or move.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 use super::KnowledgeBase;
 use super::derived::{Derived, Writer};
@@ -67,7 +68,7 @@ impl KnowledgeBase {
         let keeps_order = pending.keeps_order();
         for (_, derived) in self.derived.iter_mut().filter(|(name, _)| name.class == class) {
             for stage in &mut derived.stages {
-                *stage = stage.moved(moved, len);
+                *stage = Arc::new(stage.moved(moved, len));
             }
             for rows in &mut derived.pending {
                 *rows = match moved {
@@ -85,7 +86,7 @@ impl KnowledgeBase {
             if rule.classes().all(|of| of != class) {
                 continue;
             }
-            let Some(memory) = &mut node.memory else { continue };
+            let Some(memory) = node.memory.as_mut().map(Arc::make_mut) else { continue };
             let others = memory.given.iter().filter(|given| given.variable != 0);
             let mut touched: Vec<PropertyName> = others.map(|given| given.name.clone()).collect();
             if memory.follows(rule, class, keeps_order) {
@@ -114,7 +115,7 @@ impl KnowledgeBase {
 }
 
 /// How rules give a property. What it held before is kept, so that what stays the same does not count as changed.
-fn derived(base: &RuleBase, name: &PropertyName, stages: Vec<Column>) -> Derived {
+fn derived(base: &RuleBase, name: &PropertyName, stages: Vec<Arc<Column>>) -> Derived {
     let mut writers = vec![];
     let mut levels: BTreeMap<i64, Vec<usize>> = BTreeMap::new();
     for (number, rule) in base.rules.iter().enumerate().filter(|(_, rule)| rule.sets.contains_key(name)) {

@@ -1,6 +1,7 @@
 //! Revisions: each level folds what its rules contribute into what the level below left.
 
 use std::cmp::Ordering;
+use std::sync::Arc;
 
 use super::KnowledgeBase;
 use super::conclude::Run;
@@ -31,7 +32,7 @@ impl KnowledgeBase {
         self.index(name, &rules);
         let mut changed = Dirty::None;
         for row in pending.rows(len) {
-            let (mut value, before) = match (&derived.stages[stage - 1], &derived.stages[stage]) {
+            let (mut value, before) = match (&*derived.stages[stage - 1], &*derived.stages[stage]) {
                 (Column::Numbers(below), Column::Numbers(now)) => (below[row as usize], now[row as usize]),
                 _ => continue,
             };
@@ -42,7 +43,7 @@ impl KnowledgeBase {
                 }
             }
             if !Cell::number(value).same(Cell::number(before)) {
-                derived.stages[stage].set(row as usize, Cell::number(value));
+                Arc::make_mut(&mut derived.stages[stage]).set(row as usize, Cell::number(value));
                 changed.add(row);
             }
         }
@@ -64,7 +65,7 @@ impl KnowledgeBase {
         rule: usize,
         row: u32,
     ) -> Vec<(Option<f64>, usize)> {
-        let mut claims = self.claims(name, rule, row);
+        let mut claims: Vec<(Cell, usize)> = self.claims(name, rule, row).collect();
         if claims.len() > 1
             && let Some(memory) = &self.network.nodes[rule].memory
         {

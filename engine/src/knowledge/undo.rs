@@ -1,6 +1,7 @@
 //! Edits that can be taken back.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use super::KnowledgeBase;
 use super::pending::Pending;
@@ -84,16 +85,16 @@ impl Done {
                 table.columns.pop();
             }
             Self::Value { row, property, before } => {
-                table.columns[property].set(row, before);
+                Arc::make_mut(&mut table.columns[property]).set(row, before);
             }
             Self::Object => {
                 table.len -= 1;
-                table.columns.iter_mut().for_each(|column| column.remove(table.len));
+                table.columns.iter_mut().for_each(|column| Arc::make_mut(column).remove(table.len));
             }
             Self::Gone { row, cells } => {
                 table.len += 1;
                 let columns = table.columns.iter_mut().zip(cells);
-                columns.for_each(|(column, cell)| column.insert(row, cell));
+                columns.for_each(|(column, cell)| Arc::make_mut(column).insert(row, cell));
             }
         }
     }
@@ -138,7 +139,7 @@ impl KnowledgeBase {
             }
             Edit::Gone { class, row } => {
                 let columns = self.held.get(class).map(|held| &held.table.columns);
-                let cell = |column: &Column| column.cell(*row);
+                let cell = |column: &Arc<Column>| column.cell(*row);
                 let cells = columns.map_or(vec![], |columns| columns.iter().map(cell).collect());
                 self.remove_row(class, *row)?;
                 undo.push(class, Done::Gone { row: *row, cells });

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 use std::fmt;
+use std::sync::Arc;
 
 use super::KnowledgeBase;
 use crate::column::Column;
@@ -47,9 +48,13 @@ impl KnowledgeBase {
                 (None, &[key]) => Some(key),
                 (None, _) => None,
             };
-            let Some(Column::Texts(known)) = key.and_then(|key| to.columns.get(key)) else { continue };
+            let Some(Column::Texts(known)) = key.and_then(|key| to.columns.get(key)).map(Arc::as_ref) else {
+                continue;
+            };
             let column = from.names.iter().position(|of| *of == name.property);
-            let Some(Column::Texts(named)) = column.and_then(|column| from.columns.get(column)) else {
+            let Some(Column::Texts(named)) =
+                column.and_then(|column| from.columns.get(column)).map(Arc::as_ref)
+            else {
                 continue;
             };
             let known: BTreeSet<Symbol> = known.iter().copied().collect();

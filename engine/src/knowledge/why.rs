@@ -34,7 +34,7 @@ impl KnowledgeBase {
             Source::Rule { rule, firing } => Origin::Rule(self.support(rules, rule, firing)?),
             Source::Dispute => {
                 let (rule, firing) = derived.writers.iter().find_map(|writer| {
-                    Some((writer.rule, self.claims(&name, writer.rule, row as u32).first()?.1))
+                    Some((writer.rule, self.claims(&name, writer.rule, row as u32).next()?.1))
                 })?;
                 Origin::Rule(self.support(rules, rule, firing)?)
             }
