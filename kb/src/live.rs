@@ -28,7 +28,7 @@ use crate::live::report::Report;
 use crate::plan::course::Asked;
 use crate::site::journal::Journal;
 use crate::site::rules::Drafts;
-use crate::state::State;
+use crate::state::{Ahead, State};
 use crate::words::progress::{Silent, Stage};
 pub(crate) use memory::Memory;
 use memory::{Accepted, Followed, Promptness};
@@ -348,6 +348,11 @@ impl Live {
     /// The rules, to be asked about one object at a time, with all that is known now.
     pub fn asked(&self) -> Asked<'_> {
         self.memory.state.asked()
+    }
+
+    /// What planners keep and may not have made yet.
+    pub(crate) fn to_make_ahead(&self) -> Ahead {
+        self.memory.state.to_make_ahead()
     }
 
     pub(crate) fn generation(&self) -> u64 {

@@ -31,6 +31,7 @@ use crate::knowledge::inputs::Inputs;
 use crate::knowledge::told::{Attached, Told};
 use crate::knowledge::{KnowledgeBase, tolerance};
 pub(crate) use courses::Courses;
+pub(crate) use planned::Ahead;
 use planned::Planned;
 pub(crate) use step::{Nothing, Recall, Step, needs_changed};
 use twin::Twin;
@@ -195,6 +196,11 @@ impl State {
         let all = pairs::starts(graph, &robots);
         let rows = pairs::rows((graph, self.gauge_after(step)), &robots, &all, || true);
         pairs::costs(graph, &robots, &rows)
+    }
+
+    /// What planners keep and may not have made yet.
+    pub(crate) fn to_make_ahead(&self) -> Ahead {
+        Ahead::of(self.site.planners(), &self.world, &self.knowledge)
     }
 
     /// The robots, in the order of their names.

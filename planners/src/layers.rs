@@ -33,6 +33,8 @@ use footprint::FACINGS;
 use labels::Label;
 use layer::{Placed, Size};
 
+use rayon::prelude::*;
+
 use crate::geometry::Convex;
 use crate::geometry::polygon::sides;
 use crate::rooms::outline::shared;
@@ -122,9 +124,10 @@ pub fn cut_layers_anew(
         first += rooms;
     }
     check_passages(states, &stack)?;
-    let mut crossings: Vec<Crossing> = stack.iter().flat_map(doors).collect();
-    crossings.extend(changes(states, &stack, known)?);
-    crossings.sort_unstable_by_key(|crossing| (crossing.room1, crossing.room2));
+    let mut crossings = changes(states, &stack, known)?;
+    crossings.reserve_exact(stack.iter().map(|placed| placed.layer.beside.len()).sum());
+    crossings.extend(stack.iter().flat_map(doors));
+    crossings.par_sort_unstable_by_key(|crossing| (crossing.room1, crossing.room2));
     let members = |of: fn(&Label) -> &[usize]| {
         let labels = stack.iter().flat_map(|placed| &placed.layer.labels).enumerate();
         labels.flat_map(|(room, label)| of(label).iter().map(move |&named| (room, named))).collect()

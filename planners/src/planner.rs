@@ -41,4 +41,10 @@ pub trait Planner: Send + Sync {
 
     /// The facts. The same world and known facts must give the same result, in the same order.
     fn facts(&self, world: &World, known: &Facts) -> Result<Facts, PlannerError>;
+
+    /// Whether it keeps what it made, so that the next facts of a world take less. A service on a site that was built before
+    /// then asks for them once, while nobody waits.
+    fn keeps(&self) -> bool {
+        false
+    }
 }

@@ -9,6 +9,7 @@ use std::time::{Duration, Instant};
 
 use adit_db::history::{Author, Edit as Entry};
 use adit_db::tree::TreeRow;
+use adit_planners::planner::Planner;
 use axum::http::StatusCode;
 use jiff::Timestamp;
 
@@ -19,6 +20,7 @@ use crate::error::problem::Problem;
 use crate::error::{Code, Error, Result};
 use crate::live::watch::{Eye, Files};
 use crate::live::{Live, Meanwhile, Outcome, Renewal};
+use crate::site::calm::side_by_side;
 use crate::site::clock::stored;
 use crate::site::journal;
 
@@ -40,6 +42,8 @@ pub struct Desk {
     /// Files as they were when they were looked at last, and as they were when they were last taken or refused.
     looked: Option<Files>,
     taken: Option<Files>,
+    /// The planners that were asked ahead.
+    asked: Vec<Arc<dyn Planner>>,
 }
 
 /// After so long an edit that could not be saved says no more of whether the next one can: who sends none to a service that is
@@ -107,9 +111,18 @@ pub fn seen(live: &Live) -> Seen {
 pub fn start(live: Live, shared: Arc<Shared>, jobs: Receiver<Job>) -> Result<thread::JoinHandle<Live>> {
     let work = move || {
         let database = identity(live.site().database());
-        let mut desk =
-            Desk { database, live, shared, eye: Eye::default(), unsaved: None, looked: None, taken: None };
+        let mut desk = Desk {
+            database,
+            live,
+            shared,
+            eye: Eye::default(),
+            unsaved: None,
+            looked: None,
+            taken: None,
+            asked: Vec::new(),
+        };
         desk.taken = Some(desk.look());
+        desk.ask_ahead();
         desk.work(&jobs);
         desk.live
     };
@@ -213,6 +226,24 @@ impl Desk {
         };
         self.shared.show(seen);
         self.shared.say(Event::changed(&changed));
+        if outcome.anew {
+            self.ask_ahead();
+        }
+    }
+
+    /// Asks planners that the site has now for what they keep, while nobody waits: those of a site that was opened as it was built
+    /// were asked nothing.
+    fn ask_ahead(&mut self) {
+        let ahead = self.live.to_make_ahead();
+        let planners = ahead.planners();
+        let are_asked = planners.iter().all(|one| self.asked.iter().any(|other| Arc::ptr_eq(one, other)));
+        if are_asked {
+            return;
+        }
+        self.asked = planners;
+        let work = move || side_by_side(|| ahead.make());
+        // where there is no thread to be had, whoever needs it waits for it
+        thread::Builder::new().name("ahead".to_owned()).spawn(work).ok();
     }
 
     /// Keeps routes that were found anew; `false` where a change has overtaken them.

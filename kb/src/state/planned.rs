@@ -2,11 +2,12 @@
 
 use std::collections::BTreeMap;
 use std::hash::{Hash, Hasher};
+use std::sync::Arc;
 
 use adit_db::door::Door;
 use adit_db::room::Room;
 use adit_db::schema::{Part, Row, Value as Lent};
-use adit_engine::Value;
+use adit_engine::{KnowledgeBase as Inference, Value};
 use adit_planners::facts::{Column, Facts};
 use adit_planners::planner::Planner;
 use adit_planners::world::World;
@@ -14,6 +15,7 @@ use siphasher::sip::SipHasher13;
 
 use crate::error::{Code, Error, Result};
 use crate::graph::SiteGraph;
+use crate::knowledge::classes;
 use crate::knowledge::tables::hash_table;
 
 /// Facts of planners, by class, and the fingerprint of what each planner worked from.
@@ -96,8 +98,79 @@ pub fn fingerprint(world: &World, known: &Facts) -> u64 {
     hasher.finish()
 }
 
+/// Has planners that keep what they made make it, of a site that was opened as it was built.
+pub struct Ahead {
+    world: Arc<World>,
+    of: Vec<(Arc<dyn Planner>, Facts)>,
+}
+
+impl Ahead {
+    pub fn of(planners: &[Arc<dyn Planner>], world: &Arc<World>, knowledge: &Inference) -> Self {
+        let keeping = planners.iter().filter(|planner| planner.keeps());
+        let known = |planner: &Arc<dyn Planner>| {
+            (Arc::clone(planner), classes::known(knowledge, &planner.signature().needs))
+        };
+        Self { world: Arc::clone(world), of: keeping.map(known).collect() }
+    }
+
+    pub fn planners(&self) -> Vec<Arc<dyn Planner>> {
+        self.of.iter().map(|(planner, _)| Arc::clone(planner)).collect()
+    }
+
+    pub fn make(&self) {
+        for (planner, known) in &self.of {
+            // what is wrong is said to whoever asks
+            planner.facts(&self.world, known).ok();
+        }
+    }
+}
+
 /// What a planner gives for what it knows.
 pub fn facts(planner: &dyn Planner, world: &World, known: &Facts) -> Result<Facts> {
     let given = planner.facts(world, known);
     given.map_err(Error::of(Code::PlannerFailed))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::atomic::{AtomicUsize, Ordering};
+
+    use adit_planners::geometry::Rect;
+    use adit_planners::planner::{PlannerError, Signature};
+
+    use super::*;
+
+    struct Counting {
+        keeps: bool,
+        asked: AtomicUsize,
+    }
+
+    impl Planner for Counting {
+        fn name(&self) -> &'static str {
+            "counting"
+        }
+
+        fn signature(&self) -> Signature {
+            Signature::default()
+        }
+
+        fn keeps(&self) -> bool {
+            self.keeps
+        }
+
+        fn facts(&self, _: &World, _: &Facts) -> Result<Facts, PlannerError> {
+            self.asked.fetch_add(1, Ordering::Relaxed);
+            Ok(Facts::new())
+        }
+    }
+
+    #[test]
+    fn planners_that_keep_what_they_made_are_asked_ahead_and_no_others() {
+        let counting = [true, false].map(|keeps| Arc::new(Counting { keeps, asked: AtomicUsize::new(0) }));
+        let planners: Vec<Arc<dyn Planner>> =
+            counting.iter().map(|planner| Arc::clone(planner) as Arc<dyn Planner>).collect();
+        let world = Arc::new(World::empty(Rect::new(0.0, 0.0, 1.0, 1.0)));
+        Ahead::of(&planners, &world, &Inference::new()).make();
+        assert_eq!(counting.map(|planner| planner.asked.load(Ordering::Relaxed)), [1, 0]);
+    }
 }

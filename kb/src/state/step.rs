@@ -8,7 +8,7 @@ use adit_db::place::Place;
 use adit_db::room::Room;
 use adit_db::schema::Row as _;
 use adit_engine::{Changes, Diagnostic, KnowledgeBase as Inference, Severity};
-use adit_planners::facts::{Column, Facts, Table};
+use adit_planners::facts::{Column, Facts};
 use adit_planners::planner::Planner;
 use adit_planners::world::World;
 
@@ -22,6 +22,7 @@ use crate::graph::SiteGraph;
 use crate::graph::gauge::{Gauge, sizes};
 use crate::knowledge::classes;
 use crate::knowledge::told::{Attached, Told};
+use crate::site::calm::both;
 use crate::site::lint;
 use crate::state::grounds::Reasons;
 use crate::state::rows;
@@ -342,11 +343,18 @@ impl State {
             } else {
                 planned::facts(planner, world, &known)?
             };
-            for (class, table) in facts {
-                classes::assert(&mut self.knowledge, &class, &table, false)?;
-                told.tell(&mut self.knowledge, &class, &mut Attached::default())?;
-                given.take(class, table)?;
-            }
+            let (rows, asserted) = both(
+                || Rows::of(&facts),
+                || -> Result<()> {
+                    for (class, table) in &facts {
+                        classes::assert(&mut self.knowledge, class, table, false)?;
+                        told.tell(&mut self.knowledge, class, &mut Attached::default())?;
+                    }
+                    Ok(())
+                },
+            );
+            asserted?;
+            given.take(facts, rows?);
             self.go_on()?;
             given.is_any = true;
             clock.lap_of(name, is_kept);
@@ -409,13 +417,27 @@ struct Given {
 }
 
 impl Given {
-    fn take(&mut self, class: String, table: Table) -> Result<()> {
-        match class.as_str() {
-            "ROOMS" => self.rooms = Some(rows::rooms(&table)?),
-            "DOORS" => self.doors = Some(rows::of_table("DOORS", &table)?),
-            _ => drop(self.planned.facts.insert(class, table)),
-        }
-        Ok(())
+    fn take(&mut self, facts: Facts, rows: Rows) {
+        let of_others = facts.into_iter().filter(|(class, _)| !matches!(class.as_str(), "ROOMS" | "DOORS"));
+        self.planned.facts.extend(of_others);
+        self.rooms = rows.rooms.or(self.rooms.take());
+        self.doors = rows.doors.or(self.doors.take());
+    }
+}
+
+/// The rooms and doors that a planner gave.
+struct Rows {
+    rooms: Option<Vec<Room>>,
+    doors: Option<Vec<Door>>,
+}
+
+impl Rows {
+    fn of(facts: &Facts) -> Result<Self> {
+        let (rooms, doors) = (facts.get("ROOMS"), facts.get("DOORS"));
+        Ok(Self {
+            rooms: rooms.map(rows::rooms).transpose()?,
+            doors: doors.map(|table| rows::of_table("DOORS", table)).transpose()?,
+        })
     }
 }
 

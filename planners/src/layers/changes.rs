@@ -21,11 +21,12 @@ pub(super) fn changes(
         Pair { layers: [from, to].map(|placed| Arc::clone(&placed.layer)), turn: turn(from, to) }
     };
     let found = known.changes(&pairs.iter().map(of_layers).collect::<Vec<_>>())?;
-    let placed = |(&(from, to), changes): (&(usize, usize), &Arc<Vec<Change>>)| {
+    let mut all = Vec::with_capacity(2 * found.iter().map(|changes| changes.len()).sum::<usize>());
+    for (&(from, to), changes) in pairs.iter().zip(&found) {
         let first = [stack[from].first, stack[to].first];
-        changes.iter().flat_map(|change| there_and_back(first, change)).collect::<Vec<_>>()
-    };
-    Ok(pairs.iter().zip(&found).flat_map(placed).collect())
+        all.extend(changes.iter().flat_map(|change| there_and_back(first, change)));
+    }
+    Ok(all)
 }
 
 fn turn(from: &Placed, to: &Placed) -> Option<Turn> {

@@ -40,6 +40,10 @@ impl Planner for RoomsByState {
         Signature { needs, gives }
     }
 
+    fn keeps(&self) -> bool {
+        true
+    }
+
     fn facts(&self, world: &World, known: &Facts) -> Result<Facts, PlannerError> {
         let fact = |class: &str| {
             let class = class.to_owned();

@@ -90,9 +90,12 @@ impl DoorRow {
 /// centre lies in.
 pub(crate) fn facts(rooms: &[RoomRow], doors: &[DoorRow], spaces: &Located) -> Facts {
     let space = |room: &RoomRow| spaces.at(room.outline.centre());
-    let of_spaces: Vec<Option<f64>> = rooms.par_iter().map(space).collect();
-    let table = room_table(rooms).with("space", Column::Number(of_spaces));
-    Facts::from([("ROOMS".to_owned(), table), ("DOORS".to_owned(), door_table(rooms, doors))])
+    let of_rooms = || {
+        let of_spaces: Vec<Option<f64>> = rooms.par_iter().map(space).collect();
+        room_table(rooms).with("space", Column::Number(of_spaces))
+    };
+    let (of_rooms, of_doors) = rayon::join(of_rooms, || door_table(rooms, doors));
+    Facts::from([("ROOMS".to_owned(), of_rooms), ("DOORS".to_owned(), of_doors)])
 }
 
 /// The facts of rooms that are the same for all robots and states, with a door wherever two of them touch.
