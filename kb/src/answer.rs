@@ -4,6 +4,7 @@ mod basis;
 mod course;
 mod ends;
 mod json;
+mod moment;
 pub(crate) mod reason;
 pub(crate) mod scene;
 mod search;
@@ -16,10 +17,10 @@ use adit_db::route::{Step, Waypoint};
 use serde::Serialize;
 
 use crate::error::{Code, Error, Nearest, Result};
-use crate::state::State;
 use crate::words::suggest::{did_you_mean, listed};
 
 pub(crate) use basis::{Basis, Ground};
+pub(crate) use moment::Moment;
 
 /// What became of the question. Never an empty answer without a word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, utoipa::ToSchema)]
@@ -86,29 +87,6 @@ pub struct Answer {
     pub steps: Vec<Step>,
     /// The rows of `waypoints`: where the way bends, changes shape, starts and ends.
     pub waypoints: Vec<Waypoint>,
-}
-
-impl State {
-    /// The route of least hardness, as [`Live::route`](crate::Live::route) gives it.
-    pub fn route(&self, start: &str, goals: &[String], robot: Option<&str>) -> Result<Answer> {
-        let robot = pick(&self.robots(), robot)?;
-        if let Some(courses) = &self.courses {
-            return Ok(Answer::by(courses, (start, goals), &robot, self.generation));
-        }
-        let blank = Answer::blank(&robot, start, goals, self.generation);
-        self.basis().search(goals, blank)
-    }
-
-    pub(crate) fn basis(&self) -> Basis<'_> {
-        Basis {
-            graph: self.graph(),
-            rules: &self.inputs.rule_names,
-            ground: Ground::Known(&self.world, &self.gauge),
-            within: self.within,
-            ends_in: [None; 2],
-            start_facing: None,
-        }
-    }
 }
 
 impl Answer {

@@ -11,7 +11,7 @@ use adit_db::door::Door;
 use adit_db::room::Room;
 use serde::Serialize;
 
-use crate::answer::Answer;
+use crate::answer::{Answer, Moment};
 use crate::edit::Edit;
 use crate::edit::rehearse::{Cell, differences};
 use crate::error::Result;
@@ -20,6 +20,7 @@ use crate::graph::gauge::Gauge;
 use crate::graph::pairs::Known;
 use crate::live::Live;
 use crate::live::report::{Concluded, notes, unfit_places};
+use crate::site::calm::both;
 use crate::state::{Courses, Nothing, State, Step, Weighed, keep};
 use crate::words::progress::Silent;
 pub use drafts::{Decides, RulesTried};
@@ -35,6 +36,12 @@ pub struct Wanted<'a> {
     pub goal: &'a str,
     /// Whose; may be left out where there is one robot.
     pub robot: Option<&'a str>,
+}
+
+impl Wanted<'_> {
+    fn of(self, moment: &Moment) -> Result<Answer> {
+        moment.route(self.start, &[self.goal.to_owned()], self.robot)
+    }
 }
 
 /// What would change.
@@ -135,9 +142,12 @@ impl State {
             let step = self.step(rehearsed.before, &mut Nothing, &Silent)?;
             self.accept(step);
         }
-        let before = Before::of(&self, route)?;
+        let before = Before::of(&self);
         let concluded = (!self.site.site().has_rooms()).then(|| self.knowledge.fork());
-        let step = self.step(rehearsed.after, &mut Nothing, &Silent)?;
+        let moment = self.moment();
+        let step = || self.step(rehearsed.after, &mut Nothing, &Silent);
+        let (of_before, step) = both(|| route.map(|wanted| wanted.of(&moment)).transpose(), step);
+        let (before, step) = (Before { route: of_before?, ..before }, step?);
         let of = |knowledge: &adit_engine::KnowledgeBase| {
             keep::touched(knowledge, &self.inputs.rules, &step.changes)
         };
@@ -148,11 +158,6 @@ impl State {
             route,
             Otherwise { cells, conclusions: conclusions.unwrap_or_default(), rules: None },
         )
-    }
-
-    fn route_wanted(&self, route: Option<Wanted<'_>>) -> Result<Option<Answer>> {
-        let answer = |wanted: Wanted<'_>| self.route(wanted.start, &[wanted.goal.to_owned()], wanted.robot);
-        route.map(answer).transpose()
     }
 }
 
@@ -176,16 +181,17 @@ struct Before {
 }
 
 impl Before {
-    fn of(state: &State, route: Option<Wanted<'_>>) -> Result<Self> {
-        Ok(Self {
+    /// All but the route that is wanted.
+    fn of(state: &State) -> Self {
+        Self {
             began: Instant::now(),
             graph: Arc::clone(state.graph()),
             known: Arc::clone(&state.known),
             gauge: Arc::clone(&state.gauge),
             courses: state.courses.clone(),
-            route: state.route_wanted(route)?,
+            route: None,
             notes: notes(state),
-        })
+        }
     }
 
     /// What a step changes that follows from edits.
@@ -203,26 +209,33 @@ impl Before {
         state.go_on()?;
         let (after, robots) = (Arc::clone(state.graph()), state.robots());
         let same = !layout_changed && weighed.is_empty() && before.places == after.places;
-        let routes = if let (Some(before), Some(after)) = (&courses, &state.courses) {
-            routes::between(before, after)
-        } else if same {
-            PlaceRoutes::none(robots.len(), before.places.len())
-        } else {
-            let (before, after) = ((&*before, &*gauge), (&*after, &*state.gauge));
-            // who has waited long for a floor to be cut is not sent away to ask for the same once more
-            let patience =
-                if state.patience.is_zero() { state.patience } else { state.patience.max(began.elapsed()) };
-            let began = Instant::now();
-            let is_time = |share| began.elapsed() < patience / share && state.is_waited_for();
-            routes::compare((before, &known), after, &robots, layout_changed, &is_time)
+        let moment = state.moment();
+        let compared = || {
+            if let (Some(before), Some(after)) = (&courses, &state.courses) {
+                routes::between(before, after)
+            } else if same {
+                PlaceRoutes::none(robots.len(), before.places.len())
+            } else {
+                let (before, after) = ((&*before, &*gauge), (&*after, &*state.gauge));
+                // who has waited long for a floor to be cut is not sent away to ask for the same once more
+                let patience = if state.patience.is_zero() {
+                    state.patience
+                } else {
+                    state.patience.max(began.elapsed())
+                };
+                let began = Instant::now();
+                let is_time = |share| began.elapsed() < patience / share && state.is_waited_for();
+                routes::compare((before, &known), after, &robots, layout_changed, &is_time)
+            }
         };
+        let (route, routes) = both(|| route.map(|wanted| wanted.of(&moment)).transpose(), compared);
         let mut notes = notes(&state);
         if layout_changed || before.places != after.places {
             notes.extend(unfit_places(&state));
         }
         notes.retain(|note| !known_notes.contains(note));
         let Otherwise { cells, conclusions, rules } = said;
-        Ok(Preview {
+        let preview = Preview {
             generation: state.generation,
             cells,
             conclusions,
@@ -233,9 +246,12 @@ impl Before {
             doors: doors_of(&before, &after, &weighed, layout_changed),
             routes,
             rules,
-            route: state.route_wanted(route)?,
+            route: route?,
             before: before_route,
-        })
+        };
+        // nobody waits until all of it is given back
+        rayon::spawn(|| drop((state, moment, before, after)));
+        Ok(preview)
     }
 }
 

@@ -76,7 +76,8 @@ impl State {
         inputs.tests = RuleTests::default();
         let (site, inputs) = (site.shared(), Arc::new(inputs));
         let author = KnowledgeBase::nobody();
-        let before = Before::of(&self, route)?;
+        let of_before = route.map(|wanted| wanted.of(&self.moment())).transpose()?;
+        let before = Before { route: of_before, ..Before::of(&self) };
         let rehearsed = Store::open(site.database())?.rehearse(|tx: &mut Tx<'_>| -> Result<_> {
             make_tables(tx, &inputs.rules)?;
             let untouched = site.told(tx, &inputs.rules)?;
