@@ -22,11 +22,12 @@ mod tables;
 mod trial;
 mod why;
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use axum::body::Body;
-use axum::extract::DefaultBodyLimit;
-use axum::http::{HeaderValue, Request, StatusCode, header};
+use axum::extract::{DefaultBodyLimit, MatchedPath, State};
+use axum::http::{HeaderValue, Method, Request, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use axum::routing::get;
 use axum::{Router, middleware};
@@ -34,8 +35,9 @@ use tower::ServiceBuilder;
 use tower_http::catch_panic::CatchPanicLayer;
 use tower_http::compression::CompressionLayer;
 use tower_http::set_header::SetResponseHeaderLayer;
+use utoipa::openapi::path::{Operation, Parameter, ParameterIn};
 use utoipa::openapi::security::{HttpAuthScheme, HttpBuilder, SecurityRequirement, SecurityScheme};
-use utoipa::openapi::{Content, OpenApi, Ref, ResponseBuilder};
+use utoipa::openapi::{Content, OpenApi, PathItem, Ref, RefOr, ResponseBuilder};
 use utoipa_axum::router::OpenApiRouter;
 use utoipa_axum::routes;
 
@@ -148,7 +150,9 @@ pub fn openapi() -> OpenApi {
 
 /// The routes with all that a request passes: the meter, the shape of failures, its caller's share, the gate.
 pub fn router(shared: Arc<Shared>) -> Router {
-    let (routes, _) = described();
+    let (routes, api) = described();
+    let asked = Arc::new(asked_behind(&api));
+    let routes = routes.route_layer(middleware::from_fn_with_state(asked, question));
     let header = |name, value: &'static str| {
         SetResponseHeaderLayer::if_not_present(name, HeaderValue::from_static(value))
     };
@@ -170,6 +174,46 @@ pub fn router(shared: Arc<Shared>) -> Router {
         .method_not_allowed_fallback(not_so)
         .layer(layers)
         .with_state(shared)
+}
+
+/// The ways in which addresses are asked of which something behind the question mark is read.
+fn asked_behind(api: &OpenApi) -> BTreeSet<(Method, String)> {
+    let reads = |operation: &Operation| {
+        let mut parameters = operation.parameters.iter().flatten();
+        let is_behind =
+            |of: &RefOr<Parameter>| matches!(of, RefOr::T(of) if of.parameter_in == ParameterIn::Query);
+        parameters.any(is_behind)
+    };
+    let of_path = |(path, item): (&String, &PathItem)| {
+        let asked = [
+            (Method::GET, &item.get),
+            (Method::PUT, &item.put),
+            (Method::POST, &item.post),
+            (Method::DELETE, &item.delete),
+        ];
+        let read = asked.into_iter().filter(|(_, operation)| operation.as_ref().is_some_and(reads));
+        read.map(|(method, _)| (method, path.clone())).collect::<Vec<_>>()
+    };
+    api.paths.paths.iter().flat_map(of_path).collect()
+}
+
+/// Refuses what stands behind the question mark where nothing of it is read: who asks for a `dry_run` there would edit.
+async fn question(
+    State(asked): State<Arc<BTreeSet<(Method, String)>>>,
+    path: MatchedPath,
+    request: Request<Body>,
+    next: middleware::Next,
+) -> Response {
+    let key = (request.method().clone(), path.as_str().to_owned());
+    match request.uri().query().filter(|query| !query.is_empty() && !asked.contains(&key)) {
+        None => next.run(request).await,
+        Some(query) => {
+            let first = form_urlencoded::parse(query.as_bytes()).next();
+            let name = first.map_or_else(String::new, |(name, _)| name.into_owned());
+            let message = format!("{} {} has nothing behind `?`, and not `{name}`", key.0, key.1);
+            Fault::new(Code::ServiceQuestion, message).into_response()
+        }
+    }
 }
 
 async fn unknown() -> Fault {

@@ -112,3 +112,24 @@ fn routes_that_cannot_be_asked() {
     let (_, answer) = service.ask("GET", "/api/route?start=dok&goal=ward%206", None);
     assert!(answer["error"]["message"].as_str().unwrap().contains("did you mean `dock`"), "{answer}");
 }
+
+#[test]
+fn what_stands_behind_a_question_mark_where_nothing_is_read_of_it_is_refused_and_nothing_is_done() {
+    let (site, service) = served("clinic");
+    let close = serde_json::json!({"edit": {"kind": "close", "what": "doorway 5"}});
+    let cases = [
+        ("POST", "/api/edits?dry_run=true", Some(&close), "dry_run"),
+        ("POST", "/api/areas?for_seconds=1", Some(&close), "for_seconds"),
+        ("GET", "/api/map?x=1&y=2", None, "x"),
+        ("GET", "/api/events?since=1", None, "since"),
+        ("GET", "/api/tables?table=robots", None, "table"),
+    ];
+    for (method, path, body, name) in cases {
+        let (status, answer) = service.ask(method, path, body);
+        expect_shape(status, &answer, path);
+        assert_eq!((status, answer["error"]["code"].as_str()), (400, Some("service/question")), "{answer}");
+        assert!(answer["error"]["message"].as_str().unwrap().ends_with(&format!("not `{name}`")), "{answer}");
+    }
+    assert_eq!(site.sqlite3("SELECT count(*) FROM history"), ["0"]);
+    assert_eq!(service.ask("GET", "/api/map?", None).0, 200);
+}
