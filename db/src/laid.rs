@@ -27,6 +27,13 @@ pub struct Laid {
     pub at: String,
 }
 
+impl Laid {
+    /// Whether it lies there no longer, at a moment in UTC.
+    pub fn is_over(&self, now: &str) -> bool {
+        self.until.as_deref().is_some_and(|until| until <= now)
+    }
+}
+
 async fn laid(connection: &mut SqliteConnection) -> Result<Vec<Laid>> {
     let query = sqlx::query(
         "SELECT name, what, kind, outline, properties, until, who, why, at FROM laid ORDER BY name",

@@ -101,7 +101,9 @@ impl Lay {
             let message = format!("where `{name}` lies is said by {needed}, not by {}", self.corners.len());
             return Err(Error::said(Code::LaidUsage, message, None));
         }
-        if let Some(row) = tx.laid()?.iter().find(|row| row.name == name) {
+        let now = stored(site.clock().now());
+        let known = tx.laid()?.into_iter().find(|row| row.name == name);
+        if let Some(row) = known.as_ref().filter(|row| !row.is_over(&now)) {
             let message = format!("the {} `{name}` lies there already", row.what);
             let help = format!("`adit lift SITE \"{name}\"`, or `DELETE /api/areas/{name}`, takes it away");
             return Err(Error::said(Code::LaidTaken, message, Some(help)));
@@ -117,7 +119,7 @@ impl Lay {
             until: self.until.as_deref().map(|until| tell::end(site, until)).transpose()?,
             who: author.who.clone(),
             why: author.why.clone(),
-            at: stored(site.clock().now()),
+            at: now,
         };
         site.site().needs_rooms()?;
         laid::check(&row, &mut site.world(tx)?)?;
@@ -133,6 +135,10 @@ impl Lay {
             ("why", row.why.as_str().into()),
             ("at", row.at.as_str().into()),
         ];
+        if known.is_some() {
+            // what has ended by itself keeps its name from nobody
+            tx.remove_row("laid", name, author)?;
+        }
         Ok(tx.add_row("laid", &cells, author)?)
     }
 

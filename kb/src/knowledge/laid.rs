@@ -27,7 +27,7 @@ impl Laid {
     pub fn read(tx: &mut Tx<'_>, clock: &Clock) -> Result<Self> {
         let now = stored(clock.now());
         let rows = tx.laid()?.into_iter();
-        let rows = rows.filter(|row| row.until.as_ref().is_none_or(|until| *until > now));
+        let rows = rows.filter(|row| !row.is_over(&now));
         Ok(Self(rows.map(|row| Item::of(&row)).collect()))
     }
 

@@ -71,6 +71,29 @@ fn what_is_laid_over_the_map_is_in_the_next_route_and_on_the_map_until_it_is_lif
 }
 
 #[test]
+fn what_has_ended_by_itself_gives_its_name_free() {
+    let files = "map = \"map.toml\"\nrobots = \"robots.toml\"\n";
+    let site = TestSite::example("starter").with("site.toml", files).built();
+    let service = Service::start(&site);
+    let pallets = |seconds: u32, left: f64| {
+        let corners = json!([[left, 0.5], [left + 0.5, 1.0]]);
+        let pallets =
+            json!({"name": "pallets", "what": "obstacle", "corners": corners, "for_seconds": seconds});
+        service.ask("POST", "/api/areas", Some(&pallets))
+    };
+    assert_eq!(pallets(1, 7.0).0, 200);
+    std::thread::sleep(std::time::Duration::from_millis(1_100));
+    let (status, again) = pallets(3_600, 8.0);
+    assert_eq!(status, 200, "{again}");
+    let (status, refused) = pallets(3_600, 8.0);
+    assert_eq!((status, &refused["error"]["code"]), (409, &json!("laid/taken")), "{refused}");
+    assert_eq!(site.sqlite3("SELECT json_extract(outline, '$[0][0]') FROM laid"), ["8.0"]);
+    let (status, undone) = service.ask("POST", "/api/edits", Some(&json!({"edit": {"kind": "undo"}})));
+    assert_eq!(status, 200, "{undone}");
+    assert_eq!(site.sqlite3("SELECT json_extract(outline, '$[0][0]') FROM laid"), ["7.0"]);
+}
+
+#[test]
 fn what_stands_against_an_edit_is_said() {
     let files = "map = \"map.toml\"\nrobots = \"robots.toml\"\n";
     let site = TestSite::example("starter").with("site.toml", files).built();
