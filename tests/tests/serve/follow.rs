@@ -118,6 +118,28 @@ fn what_does_not_change_a_route_is_not_said_of_it() {
     assert_eq!(heard["cost_before"], first["route"]["cost"]);
 }
 
+/// Rooms are cut along what is laid, and numbered anew.
+#[test]
+fn a_way_whose_rooms_have_other_numbers_is_the_same_way() {
+    let (_site, service) = served("clinic");
+    let mut follower = service.follow(WAY);
+    let first = follower.next("route");
+    let (x, y) = (&first["route"]["waypoints"][0]["x"], &first["route"]["waypoints"][0]["y"]);
+    let (_, map) = service.ask("GET", "/api/map", None);
+    let far = map["places"].as_array().unwrap().iter().max_by_key(|place| {
+        let aside =
+            |axis: &str, from: &serde_json::Value| place[axis].as_f64().unwrap() - from.as_f64().unwrap();
+        (aside("x", x).hypot(aside("y", y)) * 100.0) as i64
+    });
+    let (x, y) = (far.unwrap()["x"].as_f64().unwrap(), far.unwrap()["y"].as_f64().unwrap());
+    let area = json!({"name": "far", "corners": [[x, y], [x + 0.3, y + 0.3]], "properties": {"kind": "wet"}});
+    let (status, laid) = service.ask("POST", "/api/areas", Some(&area));
+    assert_eq!(status, 200, "{laid}");
+    let heard = follower.next("route");
+    assert_eq!(heard["route"]["waypoints"], first["route"]["waypoints"]);
+    says(&heard, &["the same way costs", "by rooms and doors that have other numbers"]);
+}
+
 #[test]
 fn a_follower_that_moves_is_led_from_where_it_is() {
     let (_site, service) = served("clinic");

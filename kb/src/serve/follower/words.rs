@@ -39,10 +39,13 @@ fn news(before: &Answer, now: &Answer) -> String {
     };
     let key = |step: &Step| (step.kind.clone(), step.place.clone(), step.state.clone(), step.action.clone());
     let is_same = before.steps.iter().map(key).eq(now.steps.iter().map(key));
-    let way = if is_same { "the same way" } else { "another way" };
+    // rooms that are cut anew have other numbers where the robot goes as before
+    let is_renamed = !is_same && before.waypoints == now.waypoints && !now.waypoints.is_empty();
+    let way = if is_same || is_renamed { "the same way" } else { "another way" };
     let cost =
         if from == to { format!("costs {to} as before") } else { format!("costs {to} instead of {from}") };
-    format!("{way} {cost}{}", by(before, now))
+    let renamed = if is_renamed { ", by rooms and doors that have other numbers" } else { "" };
+    format!("{way} {cost}{renamed}{}", by(before, now))
 }
 
 /// By which spaces and doorways a way leads now, and no longer.
