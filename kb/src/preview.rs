@@ -142,6 +142,7 @@ impl State {
             let step = self.step(rehearsed.before, &mut Nothing, &Silent)?;
             self.accept(step);
         }
+        self.generation = rehearsed.generation;
         let before = Before::of(&self);
         let concluded = (!self.site.site().has_rooms()).then(|| self.knowledge.fork());
         let moment = self.moment();

@@ -9,9 +9,9 @@ use serde::Serialize;
 use super::Edit;
 use super::react::Recalled;
 use crate::error::Result;
-use crate::knowledge::KnowledgeBase;
 use crate::knowledge::tables;
 use crate::knowledge::told::{Object, Told};
+use crate::knowledge::{KnowledgeBase, generation};
 use crate::state::State;
 use crate::words::progress::Silent;
 
@@ -34,6 +34,8 @@ pub struct Cell {
 
 /// What is told before and after edits.
 pub(crate) struct Rehearsed {
+    /// Number of the state that the tables are of now.
+    pub generation: u64,
     /// As the tables say now.
     pub before: Told,
     /// As they would say.
@@ -46,17 +48,17 @@ impl State {
         let author = KnowledgeBase::nobody();
         let (site, rules) = (&self.site, &self.inputs.rules);
         Store::open(site.database())?.rehearse(|tx: &mut Tx<'_>| {
-            let before = site.told(tx, rules)?;
+            let (generation, before) = (generation::read(tx)?, site.told(tx, rules)?);
             for edit in edits {
                 edit.apply(tx, site, rules, &author)?;
             }
             let after = site.told(tx, rules)?;
             if !rules.rules().iter().any(adit_engine::Rule::reacts) {
-                return Ok(Rehearsed { before, after });
+                return Ok(Rehearsed { generation, before, after });
             }
             // what rules would do then is a part of what would change
             self.fork().step_and_react(tx, after, Recalled::Nothing, &Silent)?;
-            Ok(Rehearsed { before, after: site.told(tx, rules)? })
+            Ok(Rehearsed { generation, before, after: site.told(tx, rules)? })
         })
     }
 }
