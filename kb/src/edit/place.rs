@@ -1,5 +1,6 @@
 //! Where a doorway is meant by a point, or the cross-section at which a robot was blocked.
 
+use adit_db::space::Doorway;
 use adit_planners::geometry::{Point, Segment};
 use adit_planners::world::World;
 
@@ -107,7 +108,7 @@ fn free_along(world: &World, building: &Building, from: Point, direction: Point)
     while metres < FURTHEST_M {
         let next = from + direction * (metres + STEP_M);
         let step = Segment::new(here, next);
-        let is_left = building.doorways.iter().any(|doorway| Building::segment(doorway).crosses(&step));
+        let is_left = building.doorways.iter().any(|doorway| is_passed(doorway, &step));
         if is_left || !world.bounds.contains(next) || world.is_solid(next) {
             break;
         }
@@ -115,4 +116,36 @@ fn free_along(world: &World, building: &Building, from: Point, direction: Point)
         here = next;
     }
     metres
+}
+
+/// Whether a step leads through a doorway, or along one of its posts.
+fn is_passed(doorway: &Doorway, step: &Segment) -> bool {
+    let of = Building::segment(doorway);
+    let aside = of.direction() * STEP_M;
+    Segment::new(of.a - aside, of.b + aside).crosses(step)
+}
+
+#[cfg(test)]
+mod tests {
+    use adit_planners::geometry::Rect;
+    use adit_planners::world::{Obstacle, Shape};
+
+    use super::*;
+
+    #[test]
+    fn a_cross_section_along_the_post_of_a_doorway_ends_at_the_doorway() {
+        let mut world = World::empty(Rect::new(0.0, 0.0, 6.0, 10.0));
+        let wall = |x0, x1| Obstacle { shape: Shape::Rect(Rect::new(x0, 5.9, x1, 6.1)) };
+        world.obstacles.extend([wall(0.0, 2.0), wall(3.2, 6.0)]);
+        let doorway = Doorway { doorway: 1, x0: 2.0, y0: 6.0, x1: 3.2, y1: 6.0, ..Doorway::default() };
+        let building = Building { doorways: vec![doorway], ..Building::default() };
+        let Ok(Object::Point(_, Some([x0, y0, x1, y1]))) =
+            at(&world, &building, (Point::new(1.5, 8.0), Some(0.0)))
+        else {
+            panic!("it is a cross-section")
+        };
+        assert!((x0 - 2.0).abs() < 1e-9 && (x1 - 2.0).abs() < 1e-9, "{x0} {x1}");
+        let [low, high] = [y0.min(y1), y0.max(y1)];
+        assert!(low > 5.9 && high > 9.9, "from {low} to {high}");
+    }
 }

@@ -158,7 +158,7 @@ mod tests {
             self.keeps
         }
 
-        fn facts(&self, _: &World, _: &Facts) -> Result<Facts, PlannerError> {
+        fn facts(&self, _: &World, _: &Facts) -> std::result::Result<Facts, PlannerError> {
             self.asked.fetch_add(1, Ordering::Relaxed);
             Ok(Facts::new())
         }
