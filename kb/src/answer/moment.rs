@@ -49,14 +49,7 @@ impl State {
     }
 
     pub(crate) fn basis(&self) -> Basis<'_> {
-        Basis {
-            graph: self.graph(),
-            rules: &self.inputs.rule_names,
-            ground: Ground::Known(&self.world, &self.gauge),
-            within: self.within,
-            ends_in: [None; 2],
-            start_facing: None,
-        }
+        basis((self.graph(), &self.inputs), (&self.world, &self.gauge), self.within)
     }
 }
 
@@ -89,13 +82,16 @@ impl Moment {
     }
 
     fn basis(&self) -> Basis<'_> {
-        Basis {
-            graph: &self.graph,
-            rules: &self.inputs.rule_names,
-            ground: Ground::Known(&self.world, &self.gauge),
-            within: self.within,
-            ends_in: [None; 2],
-            start_facing: None,
-        }
+        basis((&self.graph, &self.inputs), (&self.world, &self.gauge), self.within)
     }
+}
+
+/// For whoever starts and arrives in whichever state is cheapest.
+fn basis<'a>(
+    (graph, inputs): (&'a SiteGraph, &'a Inputs),
+    (world, gauge): (&'a World, &'a Gauge),
+    within: Option<f64>,
+) -> Basis<'a> {
+    let ground = Ground::Known(world, gauge);
+    Basis { graph, rules: &inputs.rule_names, ground, within, ends_in: [None; 2], start_facing: None }
 }

@@ -210,7 +210,8 @@ async fn question(
         Some(query) => {
             let first = form_urlencoded::parse(query.as_bytes()).next();
             let name = first.map_or_else(String::new, |(name, _)| name.into_owned());
-            let message = format!("{} {} has nothing behind `?`, and not `{name}`", key.0, key.1);
+            let message =
+                format!("`{name}` means nothing here: {} {} reads nothing behind `?`", key.0, key.1);
             Fault::new(Code::ServiceQuestion, message).into_response()
         }
     }

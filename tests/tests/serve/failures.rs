@@ -128,7 +128,10 @@ fn what_stands_behind_a_question_mark_where_nothing_is_read_of_it_is_refused_and
         let (status, answer) = service.ask(method, path, body);
         expect_shape(status, &answer, path);
         assert_eq!((status, answer["error"]["code"].as_str()), (400, Some("service/question")), "{answer}");
-        assert!(answer["error"]["message"].as_str().unwrap().ends_with(&format!("not `{name}`")), "{answer}");
+        assert!(
+            answer["error"]["message"].as_str().unwrap().starts_with(&format!("`{name}` means nothing here")),
+            "{answer}"
+        );
     }
     assert_eq!(site.sqlite3("SELECT count(*) FROM history"), ["0"]);
     assert_eq!(service.ask("GET", "/api/map?", None).0, 200);
