@@ -281,13 +281,17 @@ impl<'g> Search<'g> {
                         (self.most, is_last) = (self.most.min(most), true);
                     }
                 }
-                What::Node(index) => match self.least_by(&self.nodes[index as usize]) {
-                    Some(least) if least > candidate.least => {
-                        self.queue.push(Candidate { least, ..candidate });
+                // some of the goals to which it may lead are found by now
+                What::Node(index) if self.wanted == Wanted::Goals => {
+                    match self.least_by(&self.nodes[index as usize]) {
+                        Some(least) if least > candidate.least => {
+                            self.queue.push(Candidate { least, ..candidate });
+                        }
+                        Some(_) => self.expand(index),
+                        None => self.outcome.is_cut = true,
                     }
-                    Some(_) => self.expand(index),
-                    None => self.outcome.is_cut = true,
-                },
+                }
+                What::Node(index) => self.expand(index),
             }
         }
         let graph = self.graph;
