@@ -239,12 +239,12 @@ impl SiteGraph {
     /// Gives rooms and doors other weights.
     pub fn write(
         &mut self,
-        rooms: &[(RoomIndex, Weight)],
-        doors: &[(DoorIndex, Weight)],
+        rooms: impl IntoIterator<Item = (RoomIndex, Weight)>,
+        doors: impl IntoIterator<Item = (DoorIndex, Weight)>,
         building: &Arc<Building>,
     ) {
-        self.put(rooms, doors);
-        self.weigh(rooms.iter().map(|(room, _)| *room), doors.iter().map(|(door, _)| *door), building);
+        let (rooms, doors) = self.put(rooms, doors);
+        self.weigh(rooms.into_iter(), doors.into_iter(), building);
     }
 
     /// Takes over the weights of some rooms and doors of another copy, and gives some other weights.
@@ -252,8 +252,8 @@ impl SiteGraph {
         &mut self,
         from: &Self,
         (late_rooms, late_doors): (&[RoomIndex], &[DoorIndex]),
-        rooms: &[(RoomIndex, Weight)],
-        doors: &[(DoorIndex, Weight)],
+        rooms: impl IntoIterator<Item = (RoomIndex, Weight)>,
+        doors: impl IntoIterator<Item = (DoorIndex, Weight)>,
         building: &Arc<Building>,
     ) {
         for &room in late_rooms {
@@ -262,19 +262,30 @@ impl SiteGraph {
         for &door in late_doors {
             self.doors[door.index()].clone_from(&from[door]);
         }
-        self.put(rooms, doors);
-        let rooms = late_rooms.iter().copied().chain(rooms.iter().map(|(room, _)| *room));
-        let doors = late_doors.iter().copied().chain(doors.iter().map(|(door, _)| *door));
-        self.weigh(rooms, doors, building);
+        let (rooms, doors) = self.put(rooms, doors);
+        self.weigh(
+            late_rooms.iter().copied().chain(rooms),
+            late_doors.iter().copied().chain(doors),
+            building,
+        );
     }
 
-    fn put(&mut self, rooms: &[(RoomIndex, Weight)], doors: &[(DoorIndex, Weight)]) {
-        for (room, weight) in rooms {
-            self.rooms[room.index()].weigh(weight.clone());
-        }
-        for (door, weight) in doors {
-            self.doors[door.index()].weigh(weight.clone());
-        }
+    /// Writes weights into rows; of which rooms and doors.
+    fn put(
+        &mut self,
+        rooms: impl IntoIterator<Item = (RoomIndex, Weight)>,
+        doors: impl IntoIterator<Item = (DoorIndex, Weight)>,
+    ) -> (Vec<RoomIndex>, Vec<DoorIndex>) {
+        let room = |(room, weight): (RoomIndex, Weight)| {
+            self.rooms[room.index()].weigh(weight);
+            room
+        };
+        let rooms = rooms.into_iter().map(room).collect();
+        let door = |(door, weight): (DoorIndex, Weight)| {
+            self.doors[door.index()].weigh(weight);
+            door
+        };
+        (rooms, doors.into_iter().map(door).collect())
     }
 
     /// Lets searches see the weights of these rows.

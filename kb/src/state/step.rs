@@ -1,12 +1,13 @@
 //! The step: what is told now, what planners give for it, what rules conclude, and what rooms and doors weigh then.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::panic::resume_unwind;
 use std::sync::Arc;
+use std::thread::{self, JoinHandle};
 
 use adit_db::door::Door;
 use adit_db::place::Place;
 use adit_db::room::Room;
-use adit_db::schema::Row as _;
 use adit_engine::{Changes, Diagnostic, KnowledgeBase as Inference, Severity};
 use adit_planners::facts::{Column, Facts};
 use adit_planners::planner::Planner;
@@ -101,9 +102,10 @@ impl State {
             (Arc::new(world), notes)
         };
         told.notes.extend(notes);
-        let given = self.ask_planners((&world, &told), &mut changes, (recall, progress, &mut clock))?;
-        self.go_on()?;
         let places = self.places_of(&world);
+        let over = (&world, places.as_deref());
+        let given = self.ask_planners((over, &told), &mut changes, (recall, progress, &mut clock))?;
+        self.go_on()?;
         if given.is_any {
             attached = Attached::default();
             told.attach(&self.knowledge, |_| true, &mut attached);
@@ -117,20 +119,19 @@ impl State {
         let mut look = Look { knowledge, rules, which, reasons: Some(&mut reasons) };
         let building =
             look.building(|closable| told.lines(&attached, closable), &world, &before.building).map(Arc::new);
-        if given.rooms.is_some() || given.doors.is_some() || places.is_some() {
-            let mut rooms = given.rooms.unwrap_or_else(|| before.rooms.clone());
-            let mut doors = given.doors.unwrap_or_else(|| before.doors.clone());
-            weights::check((knowledge, rules), (&rooms, &doors), None)?;
-            look.rooms().for_each(|(room, weight)| rooms[room.index()].weigh(weight));
-            look.doors().for_each(|(door, weight)| doors[door.index()].weigh(weight));
-            let (old, new) = ((&*before.rooms, &*before.doors), (&*rooms, &*doors));
+        let laying =
+            given.laying.or_else(|| places.map(|places| Laying::begin(Rows::default(), before, places)));
+        if let Some(laying) = laying {
+            let mut graph = laying.end()?;
+            weights::check((knowledge, rules), (&graph.rooms, &graph.doors), None)?;
+            let building = building.as_ref().unwrap_or(&before.building);
+            graph.write(look.rooms(), look.doors(), building);
+            let (old, new) = ((&*before.rooms, &*before.doors), (&*graph.rooms, &*graph.doors));
             is_cut_anew = !is_same_cut(old, new);
             if !is_cut_anew {
                 weighed = Weighed::between(old, new);
             }
-            let building = Arc::clone(building.as_ref().unwrap_or(&before.building));
-            let places = places.unwrap_or_else(|| before.places.clone());
-            cut = Some(Arc::new(SiteGraph::new(rooms, doors, places, building)));
+            cut = Some(Arc::new(graph));
         } else {
             let changes = (!given.is_any).then_some(&changes);
             weights::check((knowledge, rules), (&before.rooms, &before.doors), changes)?;
@@ -301,14 +302,14 @@ impl State {
     /// Has planners give facts anew, as far as what they work from is another, in the order in which it is there.
     fn ask_planners(
         &mut self,
-        (world, told): (&Arc<World>, &Told),
+        ((world, places), told): ((&Arc<World>, Option<&[Place]>), &Told),
         changes: &mut Changes,
         (recall, progress, clock): (&mut dyn Recall, &dyn Progress, &mut Stopwatch),
     ) -> Result<Given> {
         let site = Arc::clone(&self.site);
         let is_laid_anew = !Arc::ptr_eq(world, &self.world);
         let planners = site.planners();
-        let mut given = Given { planned: self.planned.clone(), rooms: None, doors: None, is_any: false };
+        let mut given = Given { planned: self.planned.clone(), laying: None, is_any: false };
         let is_new = |planner: &dyn Planner| !self.planned.fingerprints.contains_key(planner.name());
         let mut waiting: Vec<usize> = (0..planners.len())
             .filter(|&at| {
@@ -354,7 +355,7 @@ impl State {
                 },
             );
             asserted?;
-            given.take(facts, rows?);
+            given.take(facts, rows?, self.twin.shown(), places);
             self.go_on()?;
             given.is_any = true;
             clock.lap_of(name, is_kept);
@@ -410,22 +411,31 @@ impl State {
 /// What planners gave in a step.
 struct Given {
     planned: Planned,
-    rooms: Option<Vec<Room>>,
-    doors: Option<Vec<Door>>,
+    /// Rooms and doors, where any gave them.
+    laying: Option<Laying>,
     /// Whether any planner gave anything.
     is_any: bool,
 }
 
 impl Given {
-    fn take(&mut self, facts: Facts, rows: Rows) {
+    /// # Arguments
+    /// `before` has the rooms, doors and places that are kept where nobody gives others.
+    fn take(&mut self, facts: Facts, rows: Rows, before: &SiteGraph, places: Option<&[Place]>) {
         let of_others = facts.into_iter().filter(|(class, _)| !matches!(class.as_str(), "ROOMS" | "DOORS"));
         self.planned.facts.extend(of_others);
-        self.rooms = rows.rooms.or(self.rooms.take());
-        self.doors = rows.doors.or(self.doors.take());
+        if rows.rooms.is_none() && rows.doors.is_none() {
+            return;
+        }
+        let places = places.unwrap_or(&before.places).to_vec();
+        self.laying = Some(match self.laying.take() {
+            Some(laying) => Laying::begin(rows, &laying.made(), places),
+            None => Laying::begin(rows, before, places),
+        });
     }
 }
 
 /// The rooms and doors that a planner gave.
+#[derive(Default)]
 struct Rows {
     rooms: Option<Vec<Room>>,
     doors: Option<Vec<Door>>,
@@ -438,6 +448,43 @@ impl Rows {
             rooms: rooms.map(rows::rooms).transpose()?,
             doors: doors.map(|table| rows::of_table("DOORS", table)).transpose()?,
         })
+    }
+}
+
+/// A graph that is made while rules conclude what its rooms and doors weigh.
+struct Laying {
+    graph: JoinHandle<SiteGraph>,
+    doors: usize,
+}
+
+impl Laying {
+    /// # Arguments
+    /// `before` has the rooms and doors that are kept where no others are given.
+    fn begin(rows: Rows, before: &SiteGraph, places: Vec<Place>) -> Self {
+        let rooms = rows.rooms.unwrap_or_else(|| before.rooms.clone());
+        let doors = rows.doors.unwrap_or_else(|| before.doors.clone());
+        let building = Arc::clone(&before.building);
+        Self { doors: doors.len(), graph: thread::spawn(|| SiteGraph::new(rooms, doors, places, building)) }
+    }
+
+    fn made(self) -> SiteGraph {
+        self.graph.join().unwrap_or_else(|panic| resume_unwind(panic))
+    }
+
+    /// The graph, each of whose doors joins two rooms.
+    fn end(self) -> Result<SiteGraph> {
+        let doors = self.doors;
+        let graph = self.made();
+        let lost = doors - graph.doors.len();
+        if lost > 0 {
+            let lost = if lost == 1 {
+                "an object leads to a room that is not there".to_owned()
+            } else {
+                format!("{lost} objects lead to rooms that are not there")
+            };
+            return Err(Error::said(Code::FactsProperty, format!("class DOORS: {lost}"), None));
+        }
+        Ok(graph)
     }
 }
 

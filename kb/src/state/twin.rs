@@ -64,13 +64,14 @@ impl Twin {
         let free = self.other.take().and_then(|other| Arc::try_unwrap(other).ok());
         let lag = std::mem::take(&mut self.lag);
         let building = weighed.building.as_ref().unwrap_or(&self.shown.building);
+        let (rooms, doors) = (weighed.rooms.iter().cloned(), weighed.doors.iter().cloned());
         let graph = if let Some(mut graph) = free {
             let late = (lag.rooms.as_slice(), lag.doors.as_slice());
-            graph.follow(&self.shown, late, &weighed.rooms, &weighed.doors, building);
+            graph.follow(&self.shown, late, rooms, doors, building);
             graph
         } else {
             let mut graph = SiteGraph::clone(&self.shown);
-            graph.write(&weighed.rooms, &weighed.doors, building);
+            graph.write(rooms, doors, building);
             graph
         };
         self.lag.note(weighed);

@@ -145,11 +145,13 @@ impl RouteGraph {
             self.measured += usize::from(room.is_measured());
         }
         let is_all = !touched.is_empty();
+        // nothing that hangs on prices is known before
+        let is_turning = self.turning.get().is_some();
         for (door, hardness, passable) in doors {
             let of = &mut self.doors[door.index()];
             let before = of.weight();
             (of.hardness, of.passable) = (hardness, passable);
-            if of.is_change() && of.weight() != before {
+            if is_turning && of.is_change() && of.weight() != before {
                 prices.entry(door).or_insert(before);
             }
             if !is_all {

@@ -4,7 +4,10 @@
 use adit::edit::Edit;
 use adit::{KnowledgeBase, Silent, Tell};
 use adit_db::history::Author;
+use adit_planners::facts::{Column, Facts};
 use adit_planners::geometry::Point;
+use adit_planners::planner::{Planner, PlannerError, Signature};
+use adit_planners::world::World;
 use adit_tests::TestSite;
 use adit_tests::service::Service;
 use adit_tests::slanted::SlantedRooms;
@@ -222,4 +225,41 @@ fn an_outline_that_somebody_spoilt_is_made_again_by_the_next_build() {
     opened(&site).route("home", "window", None).unwrap();
     build(&site);
     assert_eq!(outlines(), before);
+}
+
+/// The same rooms, and a door into one that there is not.
+struct DoorIntoNothing;
+
+impl Planner for DoorIntoNothing {
+    fn name(&self) -> &'static str {
+        "doors into nothing"
+    }
+
+    fn signature(&self) -> Signature {
+        SlantedRooms.signature()
+    }
+
+    fn facts(&self, world: &World, known: &Facts) -> Result<Facts, PlannerError> {
+        let mut facts = SlantedRooms.facts(world, known)?;
+        let rooms = facts["ROOMS"].len() as f64;
+        let doors = facts.get_mut("DOORS").unwrap();
+        for (property, column) in &mut doors.columns {
+            if let (Column::Number(numbers), "room2") = (column, property.as_str()) {
+                numbers[0] = Some(rooms + 1_000.0);
+            }
+        }
+        Ok(facts)
+    }
+}
+
+#[test]
+fn a_door_into_a_room_that_is_not_there_is_refused_and_nothing_is_kept() {
+    let site = site();
+    let before = site.sqlite3("SELECT count(*) FROM doors");
+    site.write("map.toml", MAP.replace("depth = 8.0", "depth = 8.5"));
+    let mut knowledge = KnowledgeBase::open(site.path()).unwrap();
+    knowledge.register(Box::new(DoorIntoNothing));
+    let refused = knowledge.build(&Silent).unwrap_err().to_string();
+    assert!(refused.contains("class DOORS: an object leads to a room that is not there"), "{refused}");
+    assert_eq!(site.sqlite3("SELECT count(*) FROM doors"), before);
 }

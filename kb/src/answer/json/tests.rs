@@ -142,7 +142,7 @@ fn what_is_put_together_is_what_serde_writes() {
         });
         let weighed: Vec<_> = weighed.collect();
         let building = Arc::clone(&graph.building);
-        graph.write(&[], &weighed, &building);
+        graph.write([], weighed, &building);
     }
     assert!(routes > 200, "{routes}");
 }
