@@ -1,6 +1,7 @@
 /** The cards under the map: why something is so, and why not that way. */
 
 import { get, path } from './api.js';
+import { titleOf } from './cells.js';
 import { button, byId, el, fill, focusStays, shut } from './dom.js';
 import { edit, files, loadFiles, names, textOf } from './drafts.js';
 import { action, cost, list, number, value } from './format.js';
@@ -46,13 +47,26 @@ const WORDS = { passable: 'may be passed' };
 function conclusion(of, facts) {
   const what = `${WORDS[of.property] ?? of.property}: ${typeof of.value === 'number' && of.property !== 'passable' ? number(of.value) : of.property === 'passable' ? value(Boolean(of.value)) : of.property === 'action' ? action(of.value) : value(of.value)}`;
   const because = el('span', {}, ', by the rule ', ruleLink(of.rule, of.file, of.line));
-  const witness = Object.entries(of.witness ?? {}).map(([variable, object]) => el('li', {}, el('b', { text: variable }), ` is ${object}`, el('span', { class: 'hint', text: propertiesOf(object, facts) })));
+  const witness = Object.entries(of.witness ?? {}).map(([variable, object]) => (variable === 'revised by' ? changedBy(object) : el('li', {}, el('b', { text: variable }), ` is ${called(object)}`, el('span', { class: 'hint', text: propertiesOf(object, facts) }))));
   return el('li', {}, el('b', { text: what }), of.rule ? because : null, of.rule || !of.why ? null : ` (${of.why})`, witness.length ? el('ul', { class: 'plain' }, ...witness) : null);
+}
+
+const changedBy = (rules) => el('li', {}, 'changed after that by ', ...[rules].flat().flatMap((rule, at) => [at ? ', ' : '', el('q', { text: rule })]));
+
+/** An object as people call it: `SQUAT of Robot states`, `room 22`. */
+function called(object) {
+  const [of, ...rest] = String(object).split(' ');
+  const key = rest.join(' ');
+  const table = model.table(of.toLowerCase());
+  if (table) return `${keyName(key)} of ${titleOf(table.table)}`;
+  return `${of.toLowerCase().replaceAll('_', ' ').replace(/s$/, '')} ${key}`;
 }
 
 function propertiesOf(object, facts) {
   const found = facts?.find((fact) => `${fact.class} ${fact.key}` === object);
-  const known = Object.entries(found?.properties ?? {}).map(([name, of]) => `${name} ${value(of)}`);
+  // What its key says is said already.
+  const parts = String(found?.key ?? '').split('/');
+  const known = Object.entries(found?.properties ?? {}).filter(([, of]) => !parts.includes(String(of))).map(([name, of]) => `${name.replaceAll('_', ' ')} ${name === 'action' ? action(of) : typeof of === 'number' ? number(of) : value(of)}`);
   return known.length ? `: ${known.join(', ')}` : '';
 }
 
@@ -61,12 +75,36 @@ export async function why(what) {
   const stays = focusStays();
   try {
     const answer = await get(path('/api/why', { what }));
-    const facts = answer.facts ?? [];
-    const told = answer.conclusions.length ? [] : [el('p', { text: 'No rule says anything of it.' })];
-    card('why-card', `Why is ${answer.name ?? what} as it is?`, [...told, el('ul', { class: 'reasons' }, ...answer.conclusions.map((of) => conclusion(of, facts))), lone(facts, answer), testOf(answer, what)], stays);
+    card('why-card', `Why is ${answer.name ?? what} as it is?`, reasonsOf(answer, what), stays);
   } catch (error) {
     card('why-card', `Why is ${what} as it is?`, [said(error)], stays);
   }
+}
+
+function reasonsOf(answer, what) {
+  const facts = answer.facts ?? [];
+  const told = answer.conclusions.length ? [] : [el('p', { text: 'No rule says anything of it.' })];
+  return [...told, el('ul', { class: 'reasons' }, ...answer.conclusions.map((of) => conclusion(of, facts))), lone(facts, answer), testOf(answer, what)];
+}
+
+/**
+ * Asks why the robot does on its way what it does: first what keeps it from what is easier, then what rules say beneath.
+ * @param {string} title the question
+ * @param {?string} at where on the way; null is all of it
+ * @param {?string} what the room or door of which rules speak there
+ */
+export async function whyOnTheWay(title, at, what) {
+  const stays = focusStays();
+  const { start, goal, robot } = model.ask;
+  const busy = card('why-card', title, [el('p', { class: 'hint', text: 'Looking…' })], stays);
+  // A map of which no such question can be asked has rules all the same.
+  const [way, rules] = await Promise.allSettled([get(path('/api/why', { start, goal, robot, ...(at ? { at } : {}) })), what ? get(path('/api/why', { what })) : null]);
+  if (!busy.isConnected) return;
+  const sentences = (way.value?.sentences ?? []).map((text) => el('p', { class: 'sentence', text }));
+  const beneath = rules.status === 'rejected' ? [said(rules.reason)] : rules.value ? reasonsOf(rules.value, what) : [];
+  const failed = way.status === 'rejected' && !beneath.length ? [said(way.reason)] : [];
+  const under = beneath.length ? [el('details', { open: !sentences.length }, el('summary', { text: `What rules say of ${rules.value?.name ?? what}` }), ...beneath)] : [];
+  card('why-card', title, [...sentences, ...failed, ...under], stays);
 }
 
 // What rules say of it now, as a test that stands in the tray with all else.
@@ -94,7 +132,7 @@ function lone(facts, answer) {
   const named = new Set(answer.conclusions.flatMap((of) => Object.values(of.witness ?? {})));
   const rest = facts.filter((fact) => !named.has(`${fact.class} ${fact.key}`));
   if (!rest.length) return null;
-  return el('ul', { class: 'plain' }, ...rest.map((fact) => el('li', { class: 'hint', text: `${fact.class} ${fact.key}${propertiesOf(`${fact.class} ${fact.key}`, facts)}` })));
+  return el('ul', { class: 'plain' }, ...rest.map((fact) => el('li', { class: 'hint', text: `${called(`${fact.class} ${fact.key}`)}${propertiesOf(`${fact.class} ${fact.key}`, facts)}` })));
 }
 
 /** Asks why the route does not lead through something, and shows it. */

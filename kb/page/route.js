@@ -1,6 +1,6 @@
 /** The card of the present way: what to do, one after the other, and what each costs. */
 
-import { why } from './answers.js';
+import { why, whyOnTheWay } from './answers.js';
 import { button, byId, copy, el, fill } from './dom.js';
 import { firmButton } from './firm.js';
 import { action, cost, metres, taken } from './format.js';
@@ -8,7 +8,7 @@ import { model } from './model.js';
 import { said } from './notice.js';
 import { Actions } from './palette.js';
 import { address } from './router.js';
-import { asSql, runs, sentence, stepText, telling, why as whyOf } from './runs.js';
+import { asSql, middle, runs, sentence, stepText, telling, why as whyOf } from './runs.js';
 
 const opened = new Set();
 
@@ -26,7 +26,7 @@ function item(all, index, route, actions) {
   const details = el('details', { open: opened.has(index) }, el('summary', {}, `${run.steps.length} step${run.steps.length === 1 ? '' : 's'}`), steps);
   details.addEventListener('toggle', () => (details.open ? opened.add(index) : opened.delete(index)));
   return el('li', {}, el('div', { class: 'run' }, el('b', {}, line, action(run.action)), el('span', { class: 'where', text: sentence(all, index, route.goal) }), el('span', { class: 'cost', text: cost(run.cost) })),
-    el('div', { class: 'run-more' }, details, button('Why?', () => why(telling(run)), { class: 'quiet', 'aria-label': `Why ${action(run.action)} here?` })));
+    el('div', { class: 'run-more' }, details, button('Why?', () => whyOnTheWay(`Why ${action(run.action)} here?`, model.site.layout_kind ? null : middle(run, route), telling(run)), { class: 'quiet', 'aria-label': `Why ${action(run.action)} here?` })));
 }
 
 function copies(route) {
@@ -57,7 +57,7 @@ function show() {
   const about = takes ? `, takes about ${takes}` : '';
   const same = route.status === 'same_room' ? el('p', { class: 'hint', text: 'Start and goal lie in the same room.' }) : null;
   return fill(byId('route'), el('p', { class: 'hint', text: `${route.robot}: cost ${cost(route.cost)}${far}${about}, ${route.steps.length} steps` }), same,
-    el('ol', { class: 'runs' }, ...all.map((_, index) => item(all, index, route, actions))), model.site.layout_kind ? null : el('div', { class: 'buttons' }, firmButton()), copies(route));
+    el('ol', { class: 'runs' }, ...all.map((_, index) => item(all, index, route, actions))), model.site.layout_kind ? null : el('div', { class: 'buttons' }, button('Why this way?', () => whyOnTheWay(`Why does the way from ${route.start} to ${route.goal} lead as it does?`, null, null), { class: 'quiet' }), firmButton()), copies(route));
 }
 
 /** Keeps the card up to date. */

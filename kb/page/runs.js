@@ -49,6 +49,14 @@ export function stepText(step) {
   return `${where}: ${action(step.action)}`;
 }
 
+/** A point of the route in the middle of a run, as `x,y`. */
+export function middle(run, route) {
+  const first = route.steps.indexOf(run.steps[0]);
+  const [from, to] = [route.steps[first - 1] ?? route.waypoints[0], run.steps.at(-1)];
+  const at = run.steps.length > 1 ? run.steps[Math.floor((run.steps.length - 1) / 2)] : { x: (from.x + to.x) / 2, y: (from.y + to.y) / 2 };
+  return `${at.x},${at.y}`;
+}
+
 /** What why asks of a run: its dearest step. */
 export function telling(run) {
   const step = run.steps.reduce((best, one) => ((one.hardness ?? 0) > (best.hardness ?? 0) ? one : best), run.steps[0]);

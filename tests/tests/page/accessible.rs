@@ -50,6 +50,7 @@ async fn every_tab(screen: Screen) {
                     browser.type_into(&crate::hardness_of("SQUAT"), "7").await;
                     browser.says("#preview-summary", "would change").await;
                     browser.press("#route .run-more", "Why?").await;
+                    browser.click("#why-card summary").await;
                     browser.find("#why-card .reasons").await;
                     browser.run("document.querySelector('.row-forms').open = true").await;
                     browser.click("#draw").await;

@@ -6,7 +6,12 @@ use crate::at_a_desk;
 async fn why_names_the_rule_and_why_not_says_what_decides() {
     let (_site, _service, browser) = at_a_desk("paper", "#map?start=f&goal=e").await;
     browser.says("#route-title", "92.0").await;
+    browser.press("#route", "Why this way?").await;
+    browser.says("#why-card .sentence", "Walk-on-knee").await;
+    // what rules say stands beneath what people do
     browser.press("#route .run-more", "Why?").await;
+    browser.says("#why-card", "What rules say of").await;
+    browser.click("#why-card summary").await;
     browser.says("#why-card", "weigh a door").await;
 
     // Room a is asked for by name, through the table of rooms and doors.
