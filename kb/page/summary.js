@@ -26,13 +26,20 @@ function deciding(decides) {
   if (!decides.length) return null;
   const noun = model.site.rooms_mode === 'none' || model.site.layout_kind ? 'object' : 'room or door';
   const many = (n) => (n === 1 ? `1 ${noun}` : `${n} ${noun === 'object' ? 'objects' : 'rooms and doors'}`);
-  const line = ({ rule, old, new: now }) => {
-    const what = old === null ? (now ? `new: decides about ${many(now)}` : 'new: decides about nothing yet')
+  const line = ({ rule, revises, old, new: now }) => {
+    const what = revises ? changing(many, old, now) : old === null ? (now ? `new: decides about ${many(now)}` : 'new: decides about nothing yet')
       : now === null ? `gone: decided about ${many(old)}`
         : old === now ? `decides about ${many(now)}, others than now` : `decides about ${many(now)}, and about ${old} now`;
     return el('li', {}, el('q', { text: rule }), ` ${what}`);
   };
   return el('details', { open: decides.length <= 4 }, el('summary', { text: 'Rules that decide otherwise' }), el('ul', { class: 'plain' }, ...decides.map(line)));
+}
+
+// A rule that changes what others decide.
+function changing(many, old, now) {
+  if (old === null) return now ? `new: changes ${many(now)}` : 'new: changes nothing yet';
+  if (now === null) return `gone: changed ${many(old)}`;
+  return old === now ? `changes ${many(now)}, to something else than now` : `changes ${many(now)}, and ${old} now`;
 }
 
 /** The counts, in the expert's terms. */

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use adit_db::door::Door;
 use adit_db::room::Room;
 use adit_db::{Store, Tx};
-use adit_engine::RuleTests;
+use adit_engine::{RuleTests, Value};
 use serde::Serialize;
 
 use super::{Before, Otherwise, Preview, Wanted};
@@ -15,9 +15,8 @@ use crate::edit::react::{Recalled, make_tables};
 use crate::edit::rehearse::differences;
 use crate::error::Result;
 use crate::error::problem::Problem;
-use crate::graph::{Rules, SiteGraph};
+use crate::graph::SiteGraph;
 use crate::knowledge::KnowledgeBase;
-use crate::knowledge::inputs::Inputs;
 use crate::live::report::Concluded;
 use crate::site::rules::Drafts;
 use crate::state::{State, keep};
@@ -32,7 +31,8 @@ pub struct RulesTried {
     pub failed: usize,
     /// What would fail in them, each with its place.
     pub failures: Vec<Problem>,
-    /// Rules that would decide about other rooms or doors than now, and new ones that would decide about none.
+    /// Rules that would decide about other rooms or doors than now, or change what is decided otherwise, and new ones that would
+    /// decide about none.
     pub decides: Vec<Decides>,
 }
 
@@ -40,6 +40,8 @@ pub struct RulesTried {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, utoipa::ToSchema)]
 pub struct Decides {
     pub rule: String,
+    /// Whether it changes what other rules decide.
+    pub revises: bool,
     /// Now; null where there is no such rule.
     pub old: Option<usize>,
     /// Then; null where there would be none.
@@ -97,17 +99,9 @@ impl State {
         });
         let (after, step, cells, outcomes) = rehearsed?;
         let decides = {
-            let graphs = (&**self.graph(), &**after.graph_after(&step));
-            // a revision changes what another rule decides, and decides nothing itself
-            let revises = |inputs: &Inputs, name: &str| {
-                inputs.rules.rules().iter().any(|rule| rule.name() == name && rule.level().is_some())
-            };
-            let of = |graph: &SiteGraph, inputs: &Inputs| {
-                let mut about = about(graph, &inputs.rule_names);
-                about.retain(|name, _| !revises(inputs, name));
-                about
-            };
-            decides([of(graphs.0, &self.inputs), of(graphs.1, &inputs)], step.is_cut_anew)
+            let now = about(self.graph(), &self);
+            let then = about(after.graph_after(&step), &after);
+            decides([now, then], step.is_cut_anew)
         };
         let failed = outcomes.iter().filter(|outcome| !outcome.failures.is_empty()).count();
         let passed = outcomes.len() - failed;
@@ -124,14 +118,26 @@ impl State {
     }
 }
 
-/// About which rooms and doors each rule decides, by its name: rooms have even numbers, doors odd ones.
-fn about(graph: &SiteGraph, names: &Rules) -> BTreeMap<String, BTreeSet<usize>> {
-    let mut about: BTreeMap<String, BTreeSet<usize>> =
-        names.values().map(|name| (name.clone(), BTreeSet::new())).collect();
+/// What a rule does to rooms and doors.
+#[derive(Default)]
+struct About {
+    revises: bool,
+    /// Rooms have even numbers, doors odd ones. A revision comes with what it leads to: of the same objects it may say something else.
+    of: BTreeSet<(usize, Option<String>)>,
+}
+
+/// What each rule does, by its name.
+fn about(graph: &SiteGraph, state: &State) -> BTreeMap<String, About> {
+    let (rules, names) = (&state.inputs.rules, &state.inputs.rule_names);
+    let mut about: BTreeMap<String, About> =
+        names.values().map(|name| (name.clone(), About::default())).collect();
+    for rule in rules.rules().iter().filter(|rule| rule.level().is_some()) {
+        about.entry(rule.name().to_owned()).or_default().revises = true;
+    }
     let mut note = |rules: [Option<i64>; 3], number: usize| {
         for name in rules.into_iter().flatten().filter_map(|rule| names.get(&rule)) {
-            if let Some(numbers) = about.get_mut(name) {
-                numbers.insert(number);
+            if let Some(about) = about.get_mut(name).filter(|about| !about.revises) {
+                about.of.insert((number, None));
             }
         }
     };
@@ -143,21 +149,34 @@ fn about(graph: &SiteGraph, names: &Rules) -> BTreeMap<String, BTreeSet<usize>> 
     for (row, of) in graph.doors.iter().enumerate() {
         note(door(of), 2 * row + 1);
     }
+    for (place, class) in ["ROOMS", "DOORS"].into_iter().enumerate() {
+        for property in ["hardness", "action", "passable"] {
+            for (rule, rows) in state.knowledge.revised(rules, class, property) {
+                let values = state.knowledge.values_at(class, &rows, property);
+                let to = |value: Option<Value>| Some(format!("{property} {value:?}"));
+                let of = rows.iter().map(|row| 2 * *row as usize + place).zip(values.into_iter().map(to));
+                about.entry(rule.name().to_owned()).or_default().of.extend(of);
+            }
+        }
+    }
     about
 }
 
-fn decides([old, new]: [BTreeMap<String, BTreeSet<usize>>; 2], is_cut_anew: bool) -> Vec<Decides> {
+fn decides([old, new]: [BTreeMap<String, About>; 2], is_cut_anew: bool) -> Vec<Decides> {
     let names = old.keys().chain(new.keys().filter(|name| !old.contains_key(*name)));
+    let objects = |about: &About| about.of.iter().map(|(number, _)| number).collect::<BTreeSet<_>>().len();
     let of = |rule: &String| {
         let (old, new) = (old.get(rule), new.get(rule));
         let is_same = match (old, new) {
-            (Some(old), Some(new)) if is_cut_anew => old.len() == new.len(),
-            (old, new) => old == new,
+            (Some(old), Some(new)) if is_cut_anew => objects(old) == objects(new),
+            (Some(old), Some(new)) => old.of == new.of,
+            _ => false,
         };
         (!is_same).then(|| Decides {
             rule: rule.clone(),
-            old: old.map(BTreeSet::len),
-            new: new.map(BTreeSet::len),
+            revises: new.or(old).is_some_and(|about| about.revises),
+            old: old.map(objects),
+            new: new.map(objects),
         })
     };
     names.filter_map(of).collect()
