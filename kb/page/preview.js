@@ -151,12 +151,12 @@ function show() {
   fill(card.clashes, refused ? said(refused) : null, ...clashes.map(([id, error]) => conflict(id, error)), ...overtaken().map(otherFile), ...outdated().map(otherRows));
   card.whose.hidden = Boolean(sessionStorage.getItem('adit-token'));
   card.save.textContent = size === 1 ? 'Save' : `Save all ${size}`;
-  card.save.disabled = !maySave() || !isPreviewed() || Boolean(model.preview?.rules?.failed);
+  card.save.disabled = !maySave() || !isPreviewed();
   card.unseen.hidden = !isPreviewless();
   card.unseen.disabled = !maySave();
 }
 
-const maySave = () => !saving && !overtaken().length && !outdated().length && ![...model.pending].some(([id, item]) => item.wrong || conflicts.has(id));
+const maySave = () => !saving && !model.preview?.rules?.failed && !overtaken().length && !outdated().length && ![...model.pending].some(([id, item]) => item.wrong || conflicts.has(id));
 
 // What would change cannot be told: too large, too late. Whoever saves it all the same has to say so.
 const isPreviewless = () => Boolean(failed && failed.status >= 500);

@@ -2,7 +2,7 @@
 
 import { field, parse, titleOf } from './cells.js';
 import { el, fill, form } from './dom.js';
-import { count, list } from './format.js';
+import { count, list, value as said } from './format.js';
 import { model } from './model.js';
 import { discard, keyName, put } from './pending.js';
 
@@ -35,15 +35,26 @@ const alongWith = (found) => {
 function rowOf(table, cells) {
   const keys = table.columns.filter(({ key }) => key).map(({ name }) => name);
   const others = table.columns.filter(({ key, name }) => !key && !isPlaced(table, name) && (cells[name] ?? null) !== null);
-  return { table: table.table, key: keys.map((name) => cells[name]).join('/'), cells: Object.fromEntries(others.map(({ name }) => [name, cells[name]])) };
+  const own = Object.fromEntries(others.map(({ name }) => [name, cells[name]]));
+  return { table: table.table, key: keys.map((name) => cells[name]).join('/'), cells: own, began: own };
 }
 
 const cellsOf = (table, at) => Object.fromEntries(table.columns.map(({ name }, column) => [name, table.rows[at]?.[column] ?? null]));
 
-function item(words, rows) {
+// What was typed into a new row since it came.
+function typed(rows) {
+  const set = rows.map(({ cells, began }) => Object.entries(cells).filter(([name, value]) => began && value !== (began[name] ?? null)));
+  const own = set[0].map(([name, value]) => `${name.replaceAll('_', ' ')} ${said(value)}`);
+  const others = set.slice(1).filter((cells) => cells.length).length;
+  return [...own, ...(others ? [`${count(others, 'more row')} with other values`] : [])];
+}
+
+/** `base` says which rows come; what is typed into them is said behind it. */
+function item(base, rows) {
   const lacking = rows.flatMap((row) => model.table(row.table).columns.filter(({ key, required, name }) => !key && required && !isPlaced(row, name) && (row.cells[name] ?? '') === '').map(({ name }) => name.replaceAll('_', ' ')));
   const wrong = rows.map((row) => row.wrong).find(Boolean) ?? (lacking.length ? `needs ${list([...new Set(lacking)])}` : undefined);
-  return { words, rows, wrong, edits: rows.map(({ table, key, cells }) => ({ kind: 'add', table, key, cells })) };
+  const other = typed(rows);
+  return { words: other.length ? `${base}; ${list(other)}` : base, base, rows, wrong, edits: rows.map(({ table, key, cells }) => ({ kind: 'add', table, key, cells })) };
 }
 
 // The service puts a new state behind the others.
@@ -74,8 +85,9 @@ export function rowForms(table, columns) {
   const like = el('select', {}, el('option', { value: '', text: 'nothing' }), ...all());
   const inputs = new Map(shown.map((column) => [column.name, choice(table, column)]));
   const add = form({ class: 'line-form' }, () => {
-    const said = Object.fromEntries([...inputs].map(([name, input]) => [name, input.value.trim()]));
-    addRow(table, { ...hidden, ...said }, like.value);
+    const named = Object.fromEntries([...inputs].map(([name, input]) => [name, input.value.trim()]));
+    // One that is like another one is of the same robot.
+    addRow(table, like.value ? named : { ...hidden, ...named }, like.value);
     for (const input of inputs.values()) input.value = '';
   }, ...[...inputs].map(([name, input]) => el('label', {}, `New ${name.replaceAll('_', ' ')} `, input)), el('label', {}, 'like ', like), el('button', { type: 'submit', text: 'Add' }));
   const which = el('select', {}, ...all());
@@ -118,7 +130,7 @@ export function newRow(table, columns, [id, at, row]) {
       const { value, wrong } = parse(input.value, column);
       const rows = waiting.rows.map((of, place) => (place === at ? { ...of, cells: { ...of.cells, [column.name]: value }, wrong: wrong && `${column.name} ${wrong}` } : of));
       input.toggleAttribute('aria-invalid', Boolean(wrong));
-      put(id, item(waiting.words, rows));
+      put(id, item(waiting.base, rows));
     });
     return el('td', { class: `${column.kind} edited` }, input);
   }));
