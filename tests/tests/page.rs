@@ -27,6 +27,8 @@ mod live;
 mod rows;
 #[path = "page/rules.rs"]
 mod rules;
+#[path = "page/sentences.rs"]
+mod sentences;
 #[path = "page/shop.rs"]
 mod shop;
 #[path = "page/sql.rs"]
@@ -39,6 +41,8 @@ mod tunings;
 mod two;
 #[path = "page/unseen.rs"]
 mod unseen;
+#[path = "page/workbench.rs"]
+mod workbench;
 
 use adit_tests::TestSite;
 use adit_tests::browser::{Browser, Screen};
