@@ -24,6 +24,18 @@ export function parse(text, column) {
   return Number.isFinite(value) ? { value } : { value: typed, wrong: 'needs a number' };
 }
 
+/** Enter goes to the same column of the next row that has a field there. Nothing is saved by it: that takes Ctrl-Enter, or Save. */
+export function goDown(event) {
+  event.preventDefault();
+  const { cellIndex, parentElement } = event.target.closest('td');
+  const fieldOf = (row) => row.children[cellIndex]?.querySelector(':is(input, select):not(:disabled)');
+  let row = parentElement.nextElementSibling;
+  while (row && !fieldOf(row)) row = row.nextElementSibling;
+  const below = row && fieldOf(row);
+  below?.focus();
+  below?.select?.();
+}
+
 const TITLES = { robots: 'Robot states', changes: 'Changes of shape', loads: 'Loads', hours: 'Opening hours', measures: 'Measures' };
 
 /** What people call a table. */

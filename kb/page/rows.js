@@ -60,8 +60,8 @@ function item(base, rows) {
 // The service puts a new state behind the others.
 const isPlaced = ({ table }, name) => table === 'robots' && name === 'position';
 
-/** Takes up a new row: its key's columns, and the key of the row that it is to be like. */
-function addRow(table, keys, from) {
+/** Takes up a new row: its key's columns, others where they are known, and the key of the row that it is to be like. */
+export function addRow(table, keys, from) {
   const at = table.keys.indexOf(from);
   const like = cellsOf(table, at);
   const row = rowOf(table, { ...like, ...keys });
@@ -109,7 +109,8 @@ function choice(table, { name, kind }) {
   return made;
 }
 
-function keyParts(table, row) {
+/** What the columns of its key are in a row. */
+export function keyParts(table, row) {
   const parts = row.key.split('/');
   return Object.fromEntries(table.columns.filter(({ key }) => key).map(({ name }, at) => [name, parts[at]]));
 }
@@ -119,19 +120,22 @@ export function newRows(name) {
   return [...model.pending].flatMap(([id, { rows }]) => (rows ?? []).flatMap((row, at) => (row.table === name ? [[id, at, row]] : [])));
 }
 
+/** Takes up what is typed into a cell of a row that comes; says what is wrong with it. */
+export function typeInto([id, at], column, text) {
+  const waiting = model.pending.get(id);
+  const { value, wrong } = parse(text, column);
+  const rows = waiting.rows.map((of, place) => (place === at ? { ...of, cells: { ...of.cells, [column.name]: value }, wrong: wrong && `${column.name} ${wrong}` } : of));
+  put(id, item(waiting.base, rows));
+  return wrong;
+}
+
 /** A new row among the others, whose cells may be set before it is saved. */
 export function newRow(table, columns, [id, at, row]) {
   const parts = keyParts(table, row);
   return el('tr', { class: 'new' }, ...columns.map((column) => {
     if (column.key) return el('th', { scope: 'row', text: parts[column.name] });
     const input = field(column, `${column.name} of the new ${keyName(row.key)}`, row.cells[column.name]);
-    input.addEventListener('input', () => {
-      const waiting = model.pending.get(id);
-      const { value, wrong } = parse(input.value, column);
-      const rows = waiting.rows.map((of, place) => (place === at ? { ...of, cells: { ...of.cells, [column.name]: value }, wrong: wrong && `${column.name} ${wrong}` } : of));
-      input.toggleAttribute('aria-invalid', Boolean(wrong));
-      put(id, item(waiting.base, rows));
-    });
+    input.addEventListener('input', () => input.toggleAttribute('aria-invalid', Boolean(typeInto([id, at], column, input.value))));
     return el('td', { class: `${column.kind} edited` }, input);
   }));
 }

@@ -1,8 +1,9 @@
 /** The tables beside the map. A cell that is edited shows old and new until it is saved. */
 
-import { field, isOfAll, parse, titleOf } from './cells.js';
+import { field, goDown, isOfAll, parse, titleOf } from './cells.js';
 import { byId, el, fill, keep } from './dom.js';
 import { exact, number, value as inWords } from './format.js';
+import { asMatrix, matrix, matrixChoice } from './matrix.js';
 import { model } from './model.js';
 import { cellId, discard, editCell, keyName, put } from './pending.js';
 import { isGoing, newRow, newRows, rowForms } from './rows.js';
@@ -17,7 +18,7 @@ const UNITS = { s: 'seconds', J: 'joules', m: 'metres' };
 const views = new Map();
 
 function structure(table) {
-  return JSON.stringify([table.columns, table.keys, (table.concluded ?? []).map(({ property }) => property), model.may('tune'), model.ask.robot]);
+  return JSON.stringify([table.columns, table.keys, (table.concluded ?? []).map(({ property }) => property), model.may('tune'), model.ask.robot, asMatrix(table, columnsOf(table), rowsOf(table))]);
 }
 
 // Of a fleet, the rows of the robot whose way is asked: the others only take room.
@@ -37,28 +38,35 @@ function columnsOf(table) {
 
 function build(table, open) {
   const columns = columnsOf(table);
-  const cells = new Map();
-  const results = [];
-  const concluded = isOfAll(table.table) ? [] : table.concluded ?? [];
-  const head = el('tr', {}, ...columns.map(({ name, unit, kind, key }) => el('th', { scope: 'col', class: key ? null : kind }, name.replaceAll('_', ' '), unit && UNITS[unit] !== name ? el('small', { text: ` ${unit}` }) : null)), ...concluded.map(({ property }) => el('th', { scope: 'col', class: 'concluded', text: property.replaceAll('_', ' ') })));
   const wanted = rowsOf(table);
-  const rows = wanted.slice(0, MOST_ROWS).map(({ key, at }) => el('tr', { 'data-key': key }, ...columns.map((column) => {
-    if (column.key) return el('th', { scope: 'row', text: String(table.rows[at][column.index]) });
+  const as = asMatrix(table, columns, wanted);
+  const cells = new Map();
+  const cellOf = ({ key, at }, column) => {
     const cell = makeCell(table, key, column, table.rows[at][column.index]);
     cells.set(cellId(table.table, key, column.name), { ...cell, at, key, column });
     return cell.td;
-  }), ...concluded.map(({ property }) => {
+  };
+  const shape = as ? matrix(table, as, wanted, cellOf) : list(table, columns, wanted, cellOf);
+  const title = titleOf(table.table);
+  const more = !as && wanted.length > MOST_ROWS ? el('p', { class: 'hint', text: `The first ${MOST_ROWS} of ${wanted.length} rows; SQL shows all.` }) : null;
+  const empty = as || wanted.length ? null : el('p', { class: 'hint', text: 'Nothing is said here.' });
+  const node = el('details', { open, 'data-table': table.table }, el('summary', { text: title }), matrixChoice(table, columns, as, tables), el('div', { class: 'scroll' }, shape.node), more, empty, model.may('tune') ? rowForms(table, columns) : null, fileForms(table));
+  return { results: [], unmade: [], ...shape, node, cells, structure: structure(table), table, columns, shown: new Map() };
+}
+
+function list(table, columns, wanted, cellOf) {
+  const results = [];
+  const concluded = isOfAll(table.table) ? [] : table.concluded ?? [];
+  const head = el('tr', {}, ...columns.map(({ name, unit, kind, key }) => el('th', { scope: 'col', class: key ? null : kind }, name.replaceAll('_', ' '), unit && UNITS[unit] !== name ? el('small', { text: ` ${unit}` }) : null)), ...concluded.map(({ property }) => el('th', { scope: 'col', class: 'concluded', text: property.replaceAll('_', ' ') })));
+  const result = (at, property) => {
     const td = el('td', { class: 'concluded' });
     results.push({ td, at, property });
     return td;
-  })));
-  const title = titleOf(table.table);
+  };
+  const rows = wanted.slice(0, MOST_ROWS).map((of) => el('tr', { 'data-key': of.key }, ...columns.map((column) => (column.key ? el('th', { scope: 'row', text: String(table.rows[of.at][column.index]) }) : cellOf(of, column))),
+    ...concluded.map(({ property }) => result(of.at, property))));
   const coming = el('tbody');
-  const grid = el('div', { class: 'scroll' }, el('table', { class: 'tuned' }, el('caption', { class: 'unseen', text: title }), el('thead', {}, head), el('tbody', {}, ...rows), coming));
-  const more = wanted.length > MOST_ROWS ? el('p', { class: 'hint', text: `The first ${MOST_ROWS} of ${wanted.length} rows; SQL shows all.` }) : null;
-  const empty = wanted.length ? null : el('p', { class: 'hint', text: 'Nothing is said here.' });
-  const node = el('details', { open, 'data-table': table.table }, el('summary', { text: title }), grid, more, empty, model.may('tune') ? rowForms(table, columns) : null, fileForms(table));
-  return { node, cells, results, structure: structure(table), table, columns, rows, coming, shown: new Map() };
+  return { node: el('table', { class: 'tuned' }, el('caption', { class: 'unseen', text: titleOf(table.table) }), el('thead', {}, head), el('tbody', {}, ...rows), coming), rows, coming, results };
 }
 
 function makeCell(table, key, column, value) {
@@ -94,15 +102,6 @@ function makeCell(table, key, column, value) {
 
 /** How an edit of a cell waits: in the tables, or in the tuning that is edited. */
 const waitsAs = (table, key, column) => cellId(table, key, column, model.editIn);
-
-/** Enter goes to the same column of the next row. Nothing is saved by it: that takes Ctrl-Enter, or Save. */
-function goDown(event) {
-  event.preventDefault();
-  const td = event.target.closest('td');
-  const below = td.parentElement.nextElementSibling?.children[td.cellIndex]?.querySelector('input, select');
-  below?.focus();
-  below?.select?.();
-}
 
 function update(table) {
   const view = views.get(table.table);
@@ -152,17 +151,33 @@ function tables() {
     }
     update(table);
   }
-  if (anew) fill(byId('tables'), ...present.map(({ table }) => views.get(table).node));
+  if (anew) replaceTables(present.map(({ table }) => views.get(table).node));
   byId('tables-title').hidden = present.length === 1;
   marks();
 }
 
+// Who is in a field of a table that is made anew goes on in the field that takes its place.
+function replaceTables(nodes) {
+  const { activeElement: had } = document;
+  const [of, label] = [had.closest('#tables [data-table]')?.dataset.table, had.getAttribute('aria-label')];
+  fill(byId('tables'), ...nodes);
+  if (!of || !label) return;
+  const heir = had.isConnected ? had : nodes.find((node) => node.dataset.table === of)?.querySelector(`[aria-label="${CSS.escape(label)}"]`);
+  heir?.focus({ preventScroll: true });
+}
+
 // A row that comes stays the same element as long as it waits: somebody may be typing in it.
-function markRows({ table, columns, rows, coming, shown }) {
+function markComing({ table, columns, coming, shown }) {
   const wanted = new Map(newRows(table.table).map((of) => [JSON.stringify([of[0], of[1]]), of]));
   for (const id of [...shown.keys()]) if (!wanted.has(id)) shown.delete(id);
   for (const [id, of] of wanted) if (!shown.has(id)) shown.set(id, newRow(table, columns, of));
   keep(coming, [...shown.values()]);
+}
+
+function markRows(view) {
+  const { table, rows, coming, unmade } = view;
+  if (coming) markComing(view);
+  for (const { mark } of unmade) mark();
   for (const row of rows) {
     const going = isGoing(table.table, row.dataset.key);
     row.classList.toggle('going', going);
@@ -194,8 +209,15 @@ function marks() {
   }
 }
 
+// A state that comes is a row and a column of the matrix.
+function waited() {
+  const [view, table] = [views.get('changes'), model.table('changes')];
+  if (view && table && view.structure !== structure(table)) tables();
+  else marks();
+}
+
 /** Shows the tables and keeps them up to date. */
 export function startTables() {
   model.on('tables tunings editIn ask', () => { if (model.tables) tables(); });
-  model.on('pending', marks);
+  model.on('pending', waited);
 }

@@ -1,0 +1,136 @@
+/** The changes of shape as a matrix: a row for each state that is left, a column for each that is taken, in the cells what that takes. */
+
+import { field, goDown, parse, titleOf } from './cells.js';
+import { el } from './dom.js';
+import { exact } from './format.js';
+import { model } from './model.js';
+import { discard, keyName, put } from './pending.js';
+import { addRow, keyParts, newRows, typeInto } from './rows.js';
+
+const KEPT = 'adit-changes';
+const LIST = 'list';
+/** Beyond it a matrix is no overview any more. */
+const MOST_STATES = 24;
+
+const keysOf = (table) => table.columns.filter(({ key }) => key).map(({ name }) => name);
+const hasPairs = (table) => table.table === 'changes' && keysOf(table).filter((name) => name !== 'robot').join() === 'from_state,to_state';
+const robotOf = () => model.ask.robot || model.site.robots[0];
+
+/** The states of the robot that may change, those that come at the end. */
+function statesOf(table, rows) {
+  const pairs = rows.map(({ key }) => keyParts(table, { key }));
+  const used = new Set(pairs.flatMap((of) => [of.from_state, of.to_state]));
+  const robots = model.table('robots');
+  const moves = robots.concluded?.find(({ property }) => property === 'moves')?.values;
+  const own = robots.keys.map((key, at) => ({ ...keyParts(robots, { key }), at })).filter(({ robot }) => robot === robotOf());
+  const coming = newRows('robots').map(([,, row]) => keyParts(robots, row)).filter(({ robot }) => robot === robotOf());
+  const there = own.filter(({ state, at }) => used.has(state) || moves?.[at] !== false);
+  return [...new Set([...there, ...coming].map(({ state }) => state).concat([...used]))];
+}
+
+/** What a matrix may show of the table: nothing where it would not show every row. `columns` are those that are shown. */
+const offered = (table, columns) => (hasPairs(table) ? columns.filter(({ key }) => !key) : []);
+
+const pair = (from, to) => ({ robot: robotOf(), from_state: from, to_state: to });
+const keyOf = (table, cells) => keysOf(table).map((name) => cells[name]).join('/');
+
+/**
+ * The column that is shown as a matrix, its states, and those from which something is said of a change to themselves; null where the
+ * table is a list.
+ */
+export function asMatrix(table, columns, rows) {
+  const of = offered(table, columns);
+  if (!of.length) return null;
+  const chosen = localStorage.getItem(KEPT);
+  const usual = of.length === 1 && of[0].name === 'hardness' ? of[0] : undefined;
+  const column = chosen === LIST ? undefined : of.find(({ name }) => name === chosen) ?? usual;
+  const states = column ? statesOf(table, rows) : [];
+  if (!column || states.length > MOST_STATES) return null;
+  const said = new Set([...rows.map(({ key }) => key), ...newRows(table.table).map(([,, row]) => row.key)]);
+  return { column, states, turns: states.filter((state) => said.has(keyOf(table, pair(state, state)))) };
+}
+
+/** The choice between the list and the matrix; nothing where there is none. `changed` shows what is chosen. */
+export function matrixChoice(table, columns, as, changed) {
+  const of = offered(table, columns);
+  if (!of.length) return null;
+  const words = ({ name }) => (of.length === 1 ? 'as a matrix' : `${name} as a matrix`);
+  const made = el('select', { 'aria-label': `How ${titleOf(table.table)} are shown` }, el('option', { value: LIST, text: 'as a list' }), ...of.map((column) => el('option', { value: column.name, text: words(column) })));
+  made.value = as?.column.name ?? LIST;
+  made.addEventListener('change', () => {
+    localStorage.setItem(KEPT, made.value);
+    changed();
+  });
+  return el('div', { class: 'shown-as' }, made);
+}
+
+/**
+ * The table as a matrix. `makeCell` makes the cell of a row that is there.
+ * @returns what is shown, the cells of rows that are there, and those of rows that are not
+ */
+export function matrix(table, { column, states, turns }, rows, makeCell) {
+  const known = new Map(rows.map((row) => [row.key, row]));
+  const made = { rows: [], unmade: [] };
+  const cell = (from, to) => {
+    const cells = pair(from, to);
+    const key = keyOf(table, cells);
+    if (from === to && !turns.includes(from)) return el('td', { class: 'same' });
+    const of = known.has(key) ? { td: makeCell(known.get(key), column) } : unmade(table, key, cells, column);
+    of.td.dataset.key = key;
+    (known.has(key) ? made.rows : made.unmade).push(known.has(key) ? of.td : of);
+    return of.td;
+  };
+  const coming = new Set(newRows('robots').map(([,, row]) => keyParts(model.table('robots'), row)).filter(({ robot }) => robot === robotOf()).map(({ state }) => state));
+  const head = el('tr', {}, el('th', { scope: 'col', text: 'from ↓ to →' }), ...states.map((to) => el('th', { scope: 'col', class: coming.has(to) ? 'new' : null, text: to })));
+  const body = states.map((from) => el('tr', { class: coming.has(from) ? 'new' : null }, el('th', { scope: 'row', text: from }), ...states.map((to) => cell(from, to))));
+  const caption = el('caption', { class: 'unseen', text: `${titleOf(table.table)}: ${column.name}, from the state of a row to that of a column` });
+  return { ...made, node: el('table', { class: 'tuned matrix' }, caption, el('thead', {}, head), el('tbody', {}, ...body)) };
+}
+
+/** The row for this pair that comes, where one does: what it waits under, where it stands there, and the row. */
+const waitingFor = (table, key) => newRows(table.table).find(([,, row]) => row.key === key);
+
+// Nothing else comes with it, and nothing else is said in it: without its value it does not come either.
+const isAlone = ([id,, row], { name }) => model.pending.get(id).rows.length === 1 && Object.entries(row.cells).every(([of, value]) => of === name || (value ?? '') === '');
+
+/** A cell of a change of which nothing is said: what is typed there makes a row of it. */
+function unmade(table, key, cells, column) {
+  const input = field(column, `${column.name} of ${keyName(key)}`, null);
+  input.placeholder = '–';
+  const note = el('span', { class: 'note', role: 'status', hidden: true });
+  const td = el('td', { class: column.kind }, input, note);
+  let before;
+  const read = () => {
+    const waiting = waitingFor(table, key);
+    if (input.value.trim() === '' && (!waiting || isAlone(waiting, column))) return waiting && discard(waiting[0]);
+    if (!waiting) addRow(table, { ...cells, [column.name]: parse(input.value, column).value }, '');
+    return typeInto(waitingFor(table, key), column, input.value);
+  };
+  const goBack = () => {
+    const waiting = waitingFor(table, key);
+    if (!waiting) return undefined;
+    return before ? put(waiting[0], before) : discard(waiting[0]);
+  };
+  input.addEventListener('input', read);
+  input.addEventListener('focus', () => {
+    const item = model.pending.get(waitingFor(table, key)?.[0]);
+    before = item?.wrong ? undefined : item;
+  });
+  input.addEventListener('keydown', (event) => {
+    if (event.key === 'Escape') goBack();
+    if (event.key === 'Enter' && !event.ctrlKey && !event.metaKey && !event.isComposing) goDown(event);
+  });
+  const mark = () => {
+    const [,, row] = waitingFor(table, key) ?? [];
+    for (const name of ['new', 'edited']) td.classList.toggle(name, Boolean(row));
+    const wrong = row?.wrong?.startsWith(`${column.name} `) ? row.wrong.slice(column.name.length + 1) : '';
+    input.toggleAttribute('aria-invalid', Boolean(wrong));
+    note.hidden = !wrong;
+    note.textContent = wrong;
+    // A tuning says other values of rows that are there.
+    input.disabled = !model.may('tune') || Boolean(model.editIn && !row);
+    input.title = row || input.disabled ? '' : 'Nothing is said of this change, so it costs nothing';
+    if ((parse(input.value, column).value ?? '') !== (row?.cells[column.name] ?? '')) input.value = exact(row?.cells[column.name]);
+  };
+  return { td, mark };
+}
