@@ -28,35 +28,34 @@ function statesOf(table, rows) {
   return [...new Set([...there, ...coming].map(({ state }) => state).concat([...used]))];
 }
 
-/** What a matrix may show of the table: nothing where it would not show every row. `columns` are those that are shown. */
-const offered = (table, columns) => (hasPairs(table) ? columns.filter(({ key }) => !key) : []);
-
 const pair = (from, to) => ({ robot: robotOf(), from_state: from, to_state: to });
 const keyOf = (table, cells) => keysOf(table).map((name) => cells[name]).join('/');
 
-/**
- * The column that is shown as a matrix, its states, and those from which something is said of a change to themselves; null where the
- * table is a list.
- */
+/** What a matrix may show of these rows: the columns that are no key, the states, and those of which a change to themselves is said. */
+function offered(table, columns, rows) {
+  if (!hasPairs(table)) return null;
+  const states = statesOf(table, rows);
+  const said = new Set([...rows.map(({ key }) => key), ...newRows(table.table).map(([,, row]) => row.key)]);
+  const turns = states.filter((state) => said.has(keyOf(table, pair(state, state))));
+  return states.length <= MOST_STATES && (states.length > 1 || turns.length) ? { of: columns.filter(({ key }) => !key), states, turns } : null;
+}
+
+/** The table as a matrix: of which column, with which states; null where it is a list. `columns` are those that are shown. */
 export function asMatrix(table, columns, rows) {
-  const of = offered(table, columns);
-  if (!of.length) return null;
+  const { of, states, turns } = offered(table, columns, rows) ?? { of: [] };
   const chosen = localStorage.getItem(KEPT);
   const usual = of.length === 1 && of[0].name === 'hardness' ? of[0] : undefined;
   const column = chosen === LIST ? undefined : of.find(({ name }) => name === chosen) ?? usual;
-  const states = column ? statesOf(table, rows) : [];
-  if (!column || states.length > MOST_STATES) return null;
-  const said = new Set([...rows.map(({ key }) => key), ...newRows(table.table).map(([,, row]) => row.key)]);
-  return { column, states, turns: states.filter((state) => said.has(keyOf(table, pair(state, state)))) };
+  return column ? { column, states, turns } : null;
 }
 
 /** The choice between the list and the matrix; nothing where there is none. `changed` shows what is chosen. */
-export function matrixChoice(table, columns, as, changed) {
-  const of = offered(table, columns);
+export function matrixChoice(table, columns, rows, changed) {
+  const { of } = offered(table, columns, rows) ?? { of: [] };
   if (!of.length) return null;
   const words = ({ name }) => (of.length === 1 ? 'as a matrix' : `${name} as a matrix`);
   const made = el('select', { 'aria-label': `How ${titleOf(table.table)} are shown` }, el('option', { value: LIST, text: 'as a list' }), ...of.map((column) => el('option', { value: column.name, text: words(column) })));
-  made.value = as?.column.name ?? LIST;
+  made.value = asMatrix(table, columns, rows)?.column.name ?? LIST;
   made.addEventListener('change', () => {
     localStorage.setItem(KEPT, made.value);
     changed();

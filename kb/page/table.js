@@ -50,7 +50,7 @@ function build(table, open) {
   const title = titleOf(table.table);
   const more = !as && wanted.length > MOST_ROWS ? el('p', { class: 'hint', text: `The first ${MOST_ROWS} of ${wanted.length} rows; SQL shows all.` }) : null;
   const empty = as || wanted.length ? null : el('p', { class: 'hint', text: 'Nothing is said here.' });
-  const node = el('details', { open, 'data-table': table.table }, el('summary', { text: title }), matrixChoice(table, columns, as, tables), el('div', { class: 'scroll' }, shape.node), more, empty, model.may('tune') ? rowForms(table, columns) : null, fileForms(table));
+  const node = el('details', { open, 'data-table': table.table }, el('summary', { text: title }), matrixChoice(table, columns, wanted, tables), el('div', { class: 'scroll' }, shape.node), more, empty, model.may('tune') ? rowForms(table, columns) : null, fileForms(table));
   return { results: [], unmade: [], ...shape, node, cells, structure: structure(table), table, columns, shown: new Map() };
 }
 
