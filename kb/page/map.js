@@ -8,6 +8,7 @@ import { Frames } from './frames.js';
 import { Drawn, EASIEST, layerName, ofRobot, roomsWeigh } from './layers.js';
 import { laidAt } from './laid.js';
 import { showPoint, showScale } from './measure.js';
+import { measuring, startMeasuring } from './measuring.js';
 import { model } from './model.js';
 import { inks, paint, paintOver } from './paint.js';
 import { Patches } from './patches.js';
@@ -37,7 +38,7 @@ function invalidateOver() {
   requestAnimationFrame(() => {
     waiting = false;
     if (!shown || canvas.clientWidth === 0) return;
-    paintOver(over, camera, ink, pointed);
+    paintOver(over, camera, ink, pointed, measuring());
     if (!isFloorDue) return;
     isFloorDue = false;
     const isMore = frames.show(camera, shown, ink.paper, (context, view) => paint(context, view, shown, still, ink, (at) => finder().roomsAt(at)));
@@ -164,7 +165,8 @@ function pointAtMiddle() {
 
 function hover(point) {
   showPoint(point && camera.toMap(point));
-  if (drawing()) {
+  measuring()?.hover(point);
+  if (drawing() || measuring()) {
     byId('tip').hidden = true;
     return;
   }
@@ -248,13 +250,15 @@ export function startMap(lead) {
     if (!shown) return;
     const thing = thingAt(at, event.pointerType === 'touch' ? 16 : 8);
     byId('tip').hidden = true;
-    if (drawing()) return drawing().tap(at, event);
+    const tool = drawing() ?? measuring();
+    if (tool) return tool.tap(at, event);
     if (event.shiftKey) return lead('goal', thing);
     if (!model.ask.start) return lead('start', thing);
     if (!model.ask.goal) return lead('goal', thing);
     return openPopover(thing, at);
   }, hover);
   startDraw(camera, invalidateOver);
+  startMeasuring(camera, invalidateOver);
   canvas.addEventListener('focus', pointAtMiddle);
   byId('zoom-in').addEventListener('click', () => camera.zoom(1.4));
   byId('zoom-out').addEventListener('click', () => camera.zoom(1 / 1.4));

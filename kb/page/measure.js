@@ -1,6 +1,7 @@
 /** How long things on the map are, and where one points. */
 
 import { byId } from './dom.js';
+import { list } from './format.js';
 
 const LONGEST_PX = 130;
 
@@ -25,6 +26,19 @@ export function size(points) {
   const [xs, ys] = [0, 1].map((axis) => points.map((point) => point[axis]));
   const sides = [xs, ys].map((of) => `${(Math.max(...of) - Math.min(...of)).toFixed(2)} m`);
   return `${sides[0]} wide, ${sides[1]} deep, ${area(corners(points)).toFixed(1)} m²`;
+}
+
+/** How far it is along these points. */
+export function metresOf(points) {
+  const far = points.slice(1).reduce((sum, [x, y], i) => sum + Math.hypot(x - points[i][0], y - points[i][1]), 0);
+  return `${far.toFixed(2)} m`;
+}
+
+/** How far it is from each point to the next, in words, and in all. */
+export function distances(points) {
+  if (points.length < 2) return `From x ${points[0][0].toFixed(2)}, y ${points[0][1].toFixed(2)} m: press the next point.`;
+  const each = points.slice(1).map((point, i) => metresOf([points[i], point]));
+  return each.length === 1 ? `It is ${each[0]} from one to the other.` : `${list(each)}: ${metresOf(points)} in all.`;
 }
 
 /** The corners of a shape: two points are those of a rectangle. */

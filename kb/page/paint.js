@@ -6,6 +6,7 @@ import { hatching } from './palette.js';
 import { polygon, trace } from './shapes.js';
 import { colour } from './theme.js';
 import { showsPieces } from './thing.js';
+import { paintMeasured } from './paint-measure.js';
 import { paintPending } from './paint-pending.js';
 import { paintRoutes } from './paint-route.js';
 
@@ -30,15 +31,17 @@ function units(context, camera) {
   };
 }
 
-/** On the layer over the floor: what is pointed at, and what waits. It is painted alone while nothing beneath it changes. */
-export function paintOver(context, camera, ink, pointed) {
+/** On the layer over the floor: what is pointed at, what waits, and what is measured. It is painted alone while nothing beneath it changes. */
+export function paintOver(context, camera, ink, pointed, measured) {
   const { world, screen } = units(context, camera);
   screen();
   context.clearRect(0, 0, context.canvas.clientWidth, context.canvas.clientHeight);
   world();
   if (pointed) outline(context, pointed, ink, 1 / camera.scale);
   screen();
-  paintPending(context, camera, ink, new Labels(context, ink, camera.canvas.clientWidth));
+  const labels = new Labels(context, ink, camera.canvas.clientWidth);
+  if (measured) paintMeasured(context, camera, ink, labels, measured);
+  paintPending(context, camera, ink, labels);
 }
 
 /**
