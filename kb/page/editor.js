@@ -22,7 +22,8 @@ export function editor({ label, language, changed, numbers = true, rows = 24, pr
     fill(under, ...coloured(area.value, kind, problems), '\n ');
     const lines = area.value.split('\n').length;
     const wrong = new Set(problems.map((problem) => problem.line));
-    fill(gutter, ...Array.from({ length: lines }, (_, i) => el('span', { class: wrong.has(i + 1) ? 'wrong' : '', text: `${wrong.has(i + 1) ? '✕' : ''}${i + 1}\n` })));
+    // So do the numbers: what is typed is scrolled further by the height of its scrollbar, which they do not have.
+    fill(gutter, ...Array.from({ length: lines }, (_, i) => el('span', { class: wrong.has(i + 1) ? 'wrong' : '', text: `${wrong.has(i + 1) ? '✕' : ''}${i + 1}\n` })), ' ');
     scroll();
   };
   const scroll = () => {
