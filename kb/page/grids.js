@@ -27,10 +27,13 @@ function row(grid, { line, tests, outputs }, index) {
     ...cells, ...outputs.map((output, at) => el('td', { class: at ? null : 'first-output', text: output })));
 }
 
+// The service gives one example of what no row matches, of what may be a whole stretch: `is 50`.
+const instance = (reads) => `for instance ${reads.replace(/^is /, '')}`;
+
 // What no row matches stands as a row where one is missing.
 function missing({ missing: example, set }) {
   if (!example) return null;
-  const cells = example.map((reads) => el('td', { class: reads ? null : 'any', text: reads || 'any' }));
+  const cells = example.map((reads) => el('td', { class: reads ? null : 'any', text: reads ? instance(reads) : 'any' }));
   return el('tr', { class: 'gap' }, el('th', { scope: 'row', text: 'no row' }), ...cells, el('td', { class: 'first-output', colspan: String(Math.max(1, set.length)), text: 'nothing is set' }));
 }
 
