@@ -30,9 +30,10 @@ export function openPopover(thing, [px, py]) {
   const solid = thing.kind === 'wall';
   const around = thing.areas?.length ? el('p', { class: 'hint', text: `in ${list(thing.areas.map((area) => area.name))}` }) : null;
   const named = solid ? '' : nameOf(thing);
+  const called = thing.place ? `${thing.place.place}, ${title}` : solid && thing.laid?.length ? names(thing.laid) : title;
   fill(
     box,
-    el('h3', { text: thing.place ? `${thing.place.place}, ${title}` : solid && thing.laid?.length ? names(thing.laid) : title }),
+    el('h3', { text: called }),
     el('p', { text }),
     around,
     thing.kind === 'room' && nounOf(thing) ? el('p', { class: 'hint', text: `here ${pieceOf(thing)}` }) : null,
@@ -47,7 +48,7 @@ export function openPopover(thing, [px, py]) {
   box.hidden = false;
   place(box, px, py);
   box.querySelector('button').focus({ preventScroll: true });
-  box.setAttribute('aria-label', `${title}: ${endOf(thing)}`);
+  box.setAttribute('aria-label', `${called}: ${endOf(thing)}`);
 }
 
 // What was laid over the map may be moved, changed and taken away.

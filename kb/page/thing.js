@@ -26,7 +26,7 @@ export function pieceOf({ kind, index }) {
 
 /** Its title, its hardness and action in words. */
 export function weightsOf(thing) {
-  if (thing.kind === 'wall') return { title: 'Wall', text: 'or no room for the robot' };
+  if (thing.kind === 'wall') return { title: 'No way here', text: thing.laid?.some(({ what }) => what === 'obstacle') ? 'An obstacle leaves the robot no room here.' : 'A wall, or too little room for the robot.' };
   if (thing.kind === 'doorway') return doorway(thing);
   const weights = model.weights[thing.kind === 'room' ? 'rooms' : 'doors'];
   const [hardness, how, passable] = [weights.hardness[thing.index], weights.action[thing.index], weights.passable[thing.index]];
