@@ -4,7 +4,7 @@ import { get, post } from './api.js';
 import { askCard } from './ask.js';
 import { button, byId, el, fill, form, grid, refill } from './dom.js';
 import { moment, untilWhen } from './format.js';
-import { fact as words } from './history-words.js';
+import { author, fact as words } from './history-words.js';
 import { isGoing, readLaid, takeAway } from './laid.js';
 import { model } from './model.js';
 import { said } from './notice.js';
@@ -108,7 +108,7 @@ function retracting(fact) {
 async function load() {
   try {
     const { facts } = await get('/api/facts');
-    const rows = facts.map((fact) => [words(called(fact)), fact.until ? moment(fact.until) : 'taken back', STANDING[fact.standing] ?? fact.standing, fact.who ?? '', fact.at ? moment(fact.at) : '', fact.why ?? '',
+    const rows = facts.map((fact) => [words(called(fact)), fact.until ? moment(fact.until) : 'taken back', STANDING[fact.standing] ?? fact.standing, author(fact.who), fact.at ? moment(fact.at) : '', fact.why ?? '',
       model.may('tell') ? retracting(fact) : null]);
     refill(byId('facts-list'), facts.length ? grid('What is told', ['what', 'until', 'standing', 'who', 'when', 'why', ''], rows) : el('p', { class: 'hint', text: 'Nothing is told now.' }));
   } catch (error) {
@@ -117,7 +117,7 @@ async function load() {
   if (!byId('laid-list')) return;
   try {
     const laid = await readLaid();
-    const rows = laid.map((one) => [one.name, [one.what, one.kind].filter(Boolean).join(', '), one.until ? moment(one.until) : 'taken away', one.who ?? '', one.why ?? '', model.may('tell') ? goes(one) : null]);
+    const rows = laid.map((one) => [one.name, [one.what, one.kind].filter(Boolean).join(', '), one.until ? moment(one.until) : 'taken away', author(one.who), one.why ?? '', model.may('tell') ? goes(one) : null]);
     refill(byId('laid-list'), laid.length ? grid('What lies over the map', ['what', 'kind', 'until', 'who', 'why', ''], rows) : el('p', { class: 'hint', text: 'Nothing lies over the map now.' }));
   } catch (error) {
     fill(byId('laid-list'), said(error));

@@ -4,7 +4,7 @@ import { get, path } from './api.js';
 import { button, byId, el, fill, grid, refill } from './dom.js';
 import { moment } from './format.js';
 import { difference } from './difference.js';
-import { isFile, words } from './history-words.js';
+import { author, isFile, words } from './history-words.js';
 import { model } from './model.js';
 import { said } from './notice.js';
 import { refresh } from './refresh.js';
@@ -35,7 +35,7 @@ function row(entries, undoing) {
   const open = entries.filter(({ undone }) => !undone);
   const undo = !open.length ? el('span', { class: 'hint', text: 'taken back' })
     : model.may('tune') ? button('Undo…', () => takeBack(open[0].id, all.length > 1 ? `${what}, and ${all.length - 1} more` : what), { 'aria-label': `Undo ${what}` }) : null;
-  const by = [first.who, first.why].filter(Boolean).join(': ');
+  const by = [author(first.who), first.why].filter(Boolean).join(': ');
   return [moment(first.at), el('div', { class: 'what' }, what, by ? el('p', { class: 'hint', text: by }) : null, more, ...texts), undo];
 }
 

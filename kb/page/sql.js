@@ -4,6 +4,7 @@ import { call, get, path, post } from './api.js';
 import { button, byId, copy, download, el, fill, form, grid, sure } from './dom.js';
 import { editor } from './editor.js';
 import { exact } from './format.js';
+import { by } from './history-words.js';
 import { model } from './model.js';
 import { said } from './notice.js';
 import { address, onTab, remember } from './router.js';
@@ -44,7 +45,7 @@ async function take(format, query) {
 async function saved() {
   try {
     const { queries } = await get('/api/queries');
-    const item = ({ name, query, who }) => el('li', {}, button(name, () => { pane.show(query); return run(); }, { class: 'link', title: who ? `by ${who}` : '' }),
+    const item = ({ name, query, who }) => el('li', {}, button(name, () => { pane.show(query); return run(); }, { class: 'link', title: who ? by(who) : '' }),
       model.may('tune') ? button('Delete', () => forget(name), { class: 'quiet', 'aria-label': `Delete ${name}` }) : null);
     fill(byId('sql-saved'), queries.length ? el('ul', { class: 'plain saved-queries' }, ...queries.map(item)) : el('p', { class: 'hint', text: 'None yet.' }));
   } catch (error) {

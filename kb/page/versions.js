@@ -5,6 +5,7 @@ import { difference } from './difference.js';
 import { button, el, fill } from './dom.js';
 import { draftOf, edit, textOf } from './drafts.js';
 import { moment } from './format.js';
+import { author } from './history-words.js';
 import { model } from './model.js';
 import { said } from './notice.js';
 
@@ -12,7 +13,7 @@ let [box, body, file] = [null, null, null];
 
 function title({ at, who, why, text, edit: entry }, place) {
   const when = at ? moment(at) : entry === null && place === 0 ? 'as it is now' : 'before that';
-  const by = who ? `, ${who}` : ', saved with another program';
+  const by = who ? `, ${author(who)}` : ', saved with another program';
   return `${when}${by}${why ? `: ${why}` : ''}${text === null ? ' (no such file)' : ''}`;
 }
 
