@@ -80,7 +80,7 @@ export function matrix(table, { column, states, turns }, rows, makeCell) {
     return of.td;
   };
   const coming = new Set(newRows('robots').map(([,, row]) => keyParts(model.table('robots'), row)).filter(({ robot }) => robot === robotOf()).map(({ state }) => state));
-  const head = el('tr', {}, el('th', { scope: 'col', text: 'from ↓ to →' }), ...states.map((to) => el('th', { scope: 'col', class: coming.has(to) ? 'new' : null, text: to })));
+  const head = el('tr', {}, el('th', { scope: 'col' }, 'from ↓', el('br'), 'to →'), ...states.map((to) => el('th', { scope: 'col', class: coming.has(to) ? 'new' : null, text: to })));
   const body = states.map((from) => el('tr', { class: coming.has(from) ? 'new' : null }, el('th', { scope: 'row', text: from }), ...states.map((to) => cell(from, to))));
   const caption = el('caption', { class: 'unseen', text: `${titleOf(table.table)}: ${column.name}, from the state of a row to that of a column` });
   return { ...made, node: el('table', { class: 'tuned matrix' }, caption, el('thead', {}, head), el('tbody', {}, ...body)) };
