@@ -37,7 +37,10 @@ function offered(table, columns, rows) {
   const states = statesOf(table, rows);
   const said = new Set([...rows.map(({ key }) => key), ...newRows(table.table).map(([,, row]) => row.key)]);
   const turns = states.filter((state) => said.has(keyOf(table, pair(state, state))));
-  return states.length <= MOST_STATES && (states.length > 1 || turns.length) ? { of: columns.filter(({ key }) => !key), states, turns } : null;
+  if (states.length > MOST_STATES) return null;
+  // A row that has no place in it is not to be lost: a name with a slash, say.
+  const places = new Set(states.flatMap((from) => states.map((to) => keyOf(table, pair(from, to)))));
+  return rows.every(({ key }) => places.has(key)) && (states.length > 1 || turns.length) ? { of: columns.filter(({ key }) => !key), states, turns } : null;
 }
 
 /** The table as a matrix: of which column, with which states; null where it is a list. `columns` are those that are shown. */
