@@ -95,6 +95,7 @@ pub(crate) const STEPS: &[Step] = &[
     Step { all: &[], worlds: &[include_str!("../sql/v20/10-endings.sql")] },
     Step { all: &[], worlds: &[include_str!("../sql/v21/10-robots.sql")] },
     Step::of_all(&[include_str!("../sql/v22/10-derived.sql")]),
+    Step::of_all(&[include_str!("../sql/v23/10-laid-bridges.sql")]),
 ];
 
 /// The newest schema version.

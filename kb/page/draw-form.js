@@ -5,13 +5,14 @@ import { corners } from './measure.js';
 import { model } from './model.js';
 
 /** What can be drawn. */
-export const WORDS = { area: 'an area', obstacle: 'an obstacle', place: 'a place' };
+export const WORDS = { area: 'an area', obstacle: 'an obstacle', place: 'a place', bridge: 'a bridge', door: 'a named doorway' };
 
 /** How it is drawn. */
 export const HOW = {
   rectangle: 'Drag from corner to corner on the map, or press each.',
   polygon: 'Press corner after corner on the map; drag a corner to move it.',
   place: 'Press on the map where it is.',
+  door: 'Drag from post to post on the map, or press each.',
 };
 
 /** Points as they are written: `x,y x,y`; null where that is none. */
@@ -38,6 +39,7 @@ export function fields({ changed, done, forget }) {
     shape: el('select', { id: 'draw-shape', on }, ...option({ rectangle: 'a rectangle', polygon: 'a polygon' })),
     name: input('name'),
     kind: input('kind', { list: 'draw-kinds', placeholder: 'keep-out, wet…' }),
+    height: input('height', { placeholder: '1.3', inputmode: 'decimal', size: '6' }),
     corners: input('corners', { placeholder: 'x,y x,y', inputmode: 'text' }),
     until: input('until', { placeholder: '18:00, 2h', title: 'A time, a while, or a day with its time: 18:00, 2h, 2026-12-24T08:00; else until it is taken away' }),
     how: el('p', { class: 'hint', id: 'draw-how' }),
@@ -46,10 +48,11 @@ export function fields({ changed, done, forget }) {
   const label = (text, field) => el('label', {}, `${text} `, field);
   made.shapeLabel = label('As', made.shape);
   made.kindLabel = label('Kind', made.kind);
+  made.heightLabel = label('Clear height, metres', made.height);
   made.cornersLabel = label('Corners, metres', made.corners);
   const kinds = [...new Set(['keep-out', ...model.map.areas.map(({ kind }) => kind).filter(Boolean)])];
   made.form = el('form', { id: 'draw-form', class: 'card draw-form', 'aria-label': 'Draw on the map', on: { submit: (event) => { event.preventDefault(); done(); } } },
-    label('Draw', made.what), made.shapeLabel, made.how, label('Name', made.name), made.kindLabel, made.cornersLabel, made.size, label('Until', made.until),
+    label('Draw', made.what), made.shapeLabel, made.how, label('Name', made.name), made.kindLabel, made.heightLabel, made.cornersLabel, made.size, label('Until', made.until),
     el('datalist', { id: 'draw-kinds' }, ...kinds.map((kind) => el('option', { value: kind }))),
     el('div', { class: 'buttons' }, el('button', { type: 'submit', id: 'draw-done', text: 'Done' }), el('button', { type: 'button', id: 'draw-discard', text: 'Discard', on: { click: forget } })));
   made.form.addEventListener('keydown', (event) => {

@@ -1,9 +1,9 @@
-/** Drawing on the map: areas, obstacles and places, by hand or by numbers, named where they lie; they wait among what is pending. */
+/** Drawing on the map: areas, obstacles, places, bridges and named doorways, by hand or by numbers, named where they lie; they wait among what is pending. */
 
 import { byId, fill } from './dom.js';
 import { fields, HOW, points, rectangleOf, WORDS } from './draw-form.js';
-import { untilWhen, value } from './format.js';
-import { corners, size } from './measure.js';
+import { number, untilWhen, value } from './format.js';
+import { corners, size, span } from './measure.js';
 import { model } from './model.js';
 import { discard, put } from './pending.js';
 import { Snapper } from './snap.js';
@@ -23,7 +23,14 @@ class Tool {
 
   get isPlace() { return this.fields.what.value === 'place'; }
 
-  get isRectangle() { return !this.isPlace && this.fields.shape.value === 'rectangle'; }
+  get isDoor() { return this.fields.what.value === 'door'; }
+
+  get isBridge() { return this.fields.what.value === 'bridge'; }
+
+  get isRectangle() { return this.isBridge || (!this.isPlace && !this.isDoor && this.fields.shape.value === 'rectangle'); }
+
+  /** Whether two points say where it is. */
+  get hasTwo() { return this.isRectangle || this.isDoor; }
 
   /** The map's point that is meant by one of the screen. */
   meant(at, event) {
@@ -38,7 +45,7 @@ class Tool {
     const reach = event.pointerType === 'touch' ? 2 * REACH_PX : REACH_PX;
     const drawn = this.points.map((point) => this.camera.toScreen(point));
     this.held = drawn.findIndex(([x, y]) => Math.hypot(x - at[0], y - at[1]) <= reach);
-    this.from = this.isRectangle && this.held < 0 ? this.meant(at, event) : null;
+    this.from = this.hasTwo && this.held < 0 ? this.meant(at, event) : null;
     return this.held >= 0 || this.from !== null;
   }
 
@@ -53,7 +60,7 @@ class Tool {
   tap(at, event) {
     const point = this.meant(at, event);
     if (this.isPlace) this.points = [point];
-    else if (this.isRectangle) this.points = this.points.length === 1 ? [this.points[0], point] : [point];
+    else if (this.hasTwo) this.points = this.points.length === 1 ? [this.points[0], point] : [point];
     else if (this.held < 0) this.points = [...this.points, point];
     this.moved();
     this.finish();
@@ -66,12 +73,12 @@ class Tool {
     if (!name.value) name.value = freeName(this.fields.what.value);
     this.beside();
     name.focus({ preventScroll: true });
-    if (this.isRectangle || this.isPlace) name.select();
+    if (this.hasTwo || this.isPlace) name.select();
     this.read();
   }
 
   get isWhole() {
-    const enough = this.isPlace ? 1 : this.isRectangle ? 2 : 3;
+    const enough = this.isPlace ? 1 : this.hasTwo ? 2 : 3;
     return this.points.length >= enough;
   }
 
@@ -86,14 +93,15 @@ class Tool {
     if (tool !== this) return;
     const { fields: of } = this;
     const what = of.what.value;
-    of.shapeLabel.hidden = what === 'place';
-    of.kindLabel.hidden = what !== 'area';
-    of.cornersLabel.firstChild.data = `${this.isPlace ? 'Point' : 'Corners'}, metres `;
+    of.shapeLabel.hidden = what !== 'area' && what !== 'obstacle';
+    of.kindLabel.hidden = what !== 'area' && !this.isDoor;
+    of.heightLabel.hidden = !this.isBridge;
+    of.cornersLabel.firstChild.data = `${this.isPlace ? 'Point' : this.isDoor ? 'Posts' : 'Corners'}, metres `;
     of.corners.placeholder = this.isPlace ? 'x,y' : 'x,y x,y';
     const said = points(of.corners.value);
     this.points = said ?? [];
-    fill(of.how, said ? HOW[this.isPlace ? 'place' : of.shape.value] : this.isPlace ? 'A point is two numbers: x,y in metres.' : 'Corners are numbers: x,y x,y in metres.');
-    of.size.textContent = this.isPlace ? '' : size(this.isRectangle ? corners(this.points) : this.points);
+    fill(of.how, said ? HOW[HOW[what] ? what : this.isRectangle ? 'rectangle' : 'polygon'] : this.isPlace ? 'A point is two numbers: x,y in metres.' : 'Corners are numbers: x,y x,y in metres.');
+    of.size.textContent = this.isPlace ? '' : this.isDoor ? span(this.points) : size(this.isRectangle ? corners(this.points) : this.points);
     this.take();
     this.invalidate();
   }
@@ -103,10 +111,11 @@ class Tool {
     const [what, name] = [of.what.value, of.name.value.trim()];
     if (!this.points.length) return this.leave();
     const [kind, until] = [of.kind.value.trim(), of.until.value.trim()];
-    const properties = what === 'area' ? { ...this.properties, ...(kind ? { kind } : {}) } : {};
+    const height = Number(of.height.value.trim().replace(',', '.'));
+    const properties = this.isBridge ? { height } : what === 'area' || this.isDoor ? { ...this.properties, ...(kind ? { kind } : {}) } : {};
     const lay = { kind: 'lay', what, name, corners: this.points, properties, ...(until ? { until } : {}) };
     this.id ??= `laid:${Date.now()}`;
-    const wrong = !this.isWhole ? 'needs another corner' : name ? undefined : 'needs a name';
+    const wrong = !this.isWhole ? `needs another ${this.isDoor ? 'post' : 'corner'}` : !name ? 'needs a name' : this.isBridge && !(height > 0) ? 'needs a height: how many metres are clear beneath it' : undefined;
     const gone = this.replaced ? [{ kind: 'lift', name: this.replaced }] : [];
     return put(this.id, { words: laidWords(lay, this.replaced), edits: [...gone, lay], wrong, shape: { what, name, points: this.points, open: true } });
   }
@@ -132,7 +141,7 @@ class Tool {
 }
 
 function laidWords({ what, name, properties, until }, replaced) {
-  const kind = properties.kind ? ` (${value(properties.kind)})` : '';
+  const kind = properties.kind ? ` (${value(properties.kind)})` : what === 'bridge' && properties.height > 0 ? ` (${number(properties.height)} m high)` : '';
   return `${replaced ? 'Moved or changed: ' : 'New on the map: '}${WORDS[what]} ${name ? `“${name}”` : 'without a name'}${kind}${untilWhen(until)}`;
 }
 
@@ -183,12 +192,13 @@ function takeUp({ what, name, kind, until, corners: outline, properties }, more)
   if (tool) stopDrawing();
   begin();
   const { fields: of } = tool;
-  const rectangle = what === 'place' ? null : outline.length === 2 ? outline : rectangleOf(outline);
+  const rectangle = what === 'place' || what === 'door' ? null : outline.length === 2 ? outline : rectangleOf(outline);
   of.what.value = what;
   of.shape.value = rectangle ? 'rectangle' : 'polygon';
   of.name.value = name;
   of.kind.value = kind ?? '';
   of.until.value = until ?? '';
+  of.height.value = properties?.height ?? '';
   Object.assign(tool, { properties, ...more });
   of.corners.value = (rectangle ?? outline).map((corner) => corner.join(',')).join(' ');
   tool.read();

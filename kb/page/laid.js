@@ -13,11 +13,12 @@ export async function readLaid() {
 }
 
 const REACH_PX = 10;
+const middle = ([[ax, ay], [bx, by]]) => [(ax + bx) / 2, (ay + by) / 2];
 
 /** What was laid around a point of the map; places within some pixels. */
 export function laidAt([x, y], scale) {
   const near = ([cx, cy]) => Math.hypot(cx - x, cy - y) * scale <= REACH_PX;
-  return model.laid.filter(({ what, corners }) => (what === 'place' ? near(corners[0]) : inside([x, y], corners.flat())));
+  return model.laid.filter(({ what, corners }) => (what === 'place' ? near(corners[0]) : what === 'door' ? near(middle(corners)) : inside([x, y], corners.flat())));
 }
 
 const goneId = ({ name }) => `lift:${name}`;
@@ -34,7 +35,7 @@ export function takeAway(laid) {
 }
 
 /** `the area “wet floor” (wet)`. */
-export const describe = ({ what, name, kind }) => `the ${what} “${name}”${kind ? ` (${kind})` : ''}`;
+export const describe = ({ what, name, kind }) => `the ${what === 'door' ? 'doorway' : what} “${name}”${kind ? ` (${kind})` : ''}`;
 
 /** Names of things that lie there, in words. */
 export const names = (all) => list(all.map(({ name }) => name));

@@ -28,6 +28,9 @@ export function size(points) {
   return `${sides[0]} wide, ${sides[1]} deep, ${area(corners(points)).toFixed(1)} m²`;
 }
 
+/** How wide a doorway is, in words. */
+export const span = (points) => (points.length < 2 ? '' : `${metresOf(points)} wide`);
+
 /** How far it is along these points. */
 export function metresOf(points) {
   const far = points.slice(1).reduce((sum, [x, y], i) => sum + Math.hypot(x - points[i][0], y - points[i][1]), 0);

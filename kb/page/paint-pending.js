@@ -14,7 +14,7 @@ function drawn(context, camera, ink, labels, { what, name, points, open, gone })
   const at = points.map((point) => camera.toScreen(point));
   if (what === 'place') pin(context, ink, at[0], gone);
   else {
-    outline(context, corners(points).map((point) => camera.toScreen(point)), what, ink);
+    outline(context, (what === 'door' ? points : corners(points)).map((point) => camera.toScreen(point)), what, ink);
     if (gone) cross(context, at, ink);
   }
   if (open) for (const [x, y] of at) handle(context, ink, x, y);

@@ -12,18 +12,19 @@ use crate::error::Result;
 pub struct LayArgs {
     #[command(flatten)]
     pub site: SiteArgs,
-    /// A part of the floor of which rules speak, something that no robot comes through, or a named point
-    #[arg(value_parser = ["area", "obstacle", "place"])]
+    /// A part of the floor of which rules speak, something that no robot comes through, a named point, something to pass
+    /// under, or a doorway with a name
+    #[arg(value_parser = ["area", "obstacle", "place", "bridge", "door"])]
     pub what: String,
     /// Its name
     pub name: String,
-    /// Its corners in their order, metres: `"1,2 3,2 3,4"`; two are those of a rectangle, and a place is one
+    /// Its corners in their order, metres: `"1,2 3,2 3,4"`; two are those of a rectangle or the posts of a door, and a place is one
     #[arg(value_parser = corners, allow_hyphen_values = true)]
     pub corners: Corners,
-    /// What an area is: `wet`, `keep-out`
+    /// What an area or a door is: `wet`, `keep-out`
     #[arg(long)]
     pub kind: Option<String>,
-    /// What else is said of an area; may be said again
+    /// What else is said of an area or a door, or `height=1.3` of a bridge; may be said again
     #[arg(long, value_name = "PROPERTY=VALUE", value_parser = property)]
     pub with: Vec<(String, String)>,
     /// When it ends: `2026-11-21T18:00`, `18:00` (the next one), `2h`

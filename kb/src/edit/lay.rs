@@ -1,4 +1,4 @@
-//! Areas, obstacles and places laid over the map while the site is in use.
+//! Areas, obstacles, places, bridges and named doors laid over the map while the site is in use.
 
 use adit_db::edit::Edited;
 use adit_db::history::Author;
@@ -26,6 +26,10 @@ pub enum Thing {
     Obstacle,
     /// A named point.
     Place,
+    /// Something to pass under, a rectangle along the axes; it has a `height`.
+    Bridge,
+    /// A doorway with a name, from post to post.
+    Door,
 }
 
 impl Thing {
@@ -34,12 +38,34 @@ impl Thing {
             Self::Area => "area",
             Self::Obstacle => "obstacle",
             Self::Place => "place",
+            Self::Bridge => "bridge",
+            Self::Door => "door",
         }
     }
 
     /// By the name that people give it.
     pub(crate) fn called(name: &str) -> Option<Self> {
-        [Self::Area, Self::Obstacle, Self::Place].into_iter().find(|what| what.name() == name)
+        let all = [Self::Area, Self::Obstacle, Self::Place, Self::Bridge, Self::Door];
+        all.into_iter().find(|what| what.name() == name)
+    }
+
+    /// The class whose properties it may have; `None`: it has none of its own, but for the height of a bridge.
+    fn class(self) -> Option<&'static str> {
+        match self {
+            Self::Area => Some("AREAS"),
+            Self::Door => Some("NAMED_DOORS"),
+            Self::Obstacle | Self::Place | Self::Bridge => None,
+        }
+    }
+
+    /// How many corners say where it is, in words, and whether so many do.
+    fn corners(self, count: usize) -> (&'static str, bool) {
+        match self {
+            Self::Place => ("one point", count == 1),
+            Self::Door => ("two points, the posts", count == 2),
+            Self::Bridge => ("two corners", count == 2 || count == 4),
+            Self::Area | Self::Obstacle => ("two corners or more", count > 1),
+        }
     }
 }
 
@@ -48,11 +74,12 @@ impl Thing {
 pub struct Lay {
     pub what: Thing,
     pub name: String,
-    /// Metres, in the order in which they follow one another; two are those of a rectangle, and one is a place.
+    /// Metres, in the order in which they follow one another; two are those of a rectangle or the posts of a door, and one is a
+    /// place.
     pub corners: Vec<[f64; 2]>,
-    /// What an area is.
+    /// What an area or a door is.
     pub kind: Option<String>,
-    /// What else is said of an area: property and value.
+    /// What else is said of an area or a door, or how high a bridge is: property and value.
     pub properties: Vec<(String, String)>,
     /// When it ends, as [`KnowledgeBase::moment`] reads times.
     pub until: Option<String>,
@@ -90,14 +117,9 @@ impl Lay {
         author: &Author,
     ) -> Result<Edited> {
         let (name, what) = (self.name.trim(), self.what.name());
-        if self.what != Thing::Area && (self.kind.is_some() || !self.properties.is_empty()) {
-            let article = if self.what == Thing::Obstacle { "an" } else { "a" };
-            let message = format!("`{name}` is {article} {what}: only an area has a kind and properties");
-            return Err(Error::said(Code::LaidUsage, message, None));
-        }
-        let is_place = self.what == Thing::Place;
-        if is_place != (self.corners.len() == 1) {
-            let needed = if is_place { "one point" } else { "two corners or more" };
+        self.check_said()?;
+        let (needed, is_so_many) = self.what.corners(self.corners.len());
+        if !is_so_many {
             let message = format!("where `{name}` lies is said by {needed}, not by {}", self.corners.len());
             return Err(Error::said(Code::LaidUsage, message, None));
         }
@@ -142,6 +164,24 @@ impl Lay {
         Ok(tx.add_row("laid", &cells, author)?)
     }
 
+    /// Refuses what cannot be said of such a thing.
+    fn check_said(&self) -> Result<()> {
+        let (name, what) = (self.name.trim(), self.what.name());
+        let message = if self.what == Thing::Bridge {
+            let is_height = |(property, _): &(String, String)| property == "height";
+            if self.kind.is_none() && self.properties.len() == 1 && self.properties.iter().all(is_height) {
+                return Ok(());
+            }
+            format!("`{name}` is a bridge: how high it is, and nothing else, is said of it, as `height=1.3`")
+        } else if self.what.class().is_none() && (self.kind.is_some() || !self.properties.is_empty()) {
+            let article = if self.what == Thing::Obstacle { "an" } else { "a" };
+            format!("`{name}` is {article} {what}: only an area or a door has a kind and properties")
+        } else {
+            return Ok(());
+        };
+        Err(Error::said(Code::LaidUsage, message, None))
+    }
+
     /// Refuses a name that means something else to whoever closes or avoids by names.
     fn check_name(&self, tx: &mut Tx<'_>) -> Result<()> {
         let (name, building) = (self.name.trim(), Building::read(tx)?);
@@ -165,7 +205,7 @@ impl Lay {
 
     fn outline(&self) -> Result<String> {
         let corners = match *self.corners {
-            [[x0, y0], [x1, y1]] => {
+            [[x0, y0], [x1, y1]] if self.what != Thing::Door => {
                 let (left, right, low, high) = (x0.min(x1), x0.max(x1), y0.min(y1), y0.max(y1));
                 vec![[left, low], [right, low], [right, high], [left, high]]
             }
@@ -178,7 +218,7 @@ impl Lay {
             .to_string())
     }
 
-    /// The properties as JSON, each of the type that it has in AREAS.
+    /// The properties as JSON, each of the type that it has in its class.
     fn further(&self, tx: &mut Tx<'_>, site: &KnowledgeBase, rules: &RuleBase) -> Result<String> {
         let mut further = Map::new();
         for (property, value) in &self.properties {
@@ -191,8 +231,16 @@ impl Lay {
                 let message = format!("`{property}` of `{}` is said twice", self.name.trim());
                 return Err(Error::said(Code::LaidUsage, message, None));
             }
+            let Some(class) = self.what.class() else {
+                let metres = value.trim().parse::<f64>().ok().filter(|metres| metres.is_finite());
+                let wrong =
+                    || format!("`{property}` of `{}` is a number of metres, not `{value}`", self.name.trim());
+                let metres = metres.ok_or_else(|| Error::said(Code::LaidUsage, wrong(), None))?;
+                further.insert(property.clone(), Value::from(metres));
+                continue;
+            };
             let tell = Tell {
-                class: "AREAS".to_owned(),
+                class: class.to_owned(),
                 object: self.name.clone(),
                 property: property.clone(),
                 value: value.clone(),

@@ -1,4 +1,4 @@
-//! Areas, obstacles and places that people lay over the map while the site is in use: read and checked as those of `site.toml` are.
+//! Areas, obstacles, places, bridges and named doors that people lay over the map while the site is in use: read and checked as those of `site.toml` are.
 
 use adit_db::Tx;
 use adit_db::laid::Laid as Row;
@@ -13,7 +13,7 @@ use crate::site::clock::{Clock, stored};
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Laid(Vec<Item>);
 
-/// An area, an obstacle or a place with its text in the map's own language.
+/// One of them with its text in the map's own language.
 #[derive(Clone, Debug, PartialEq)]
 struct Item {
     /// What people call it: ``the area `wet spot` ``.
@@ -61,6 +61,17 @@ impl Laid {
     }
 }
 
+/// The sides of a rectangle along the axes: left, low, right, high.
+fn rect_of(corners: &[[f64; 2]]) -> Option<[f64; 4]> {
+    let side = |axis: usize, pick: fn(f64, f64) -> f64, from: f64| {
+        corners.iter().map(|corner| corner[axis]).fold(from, pick)
+    };
+    let [x0, y0] = [0, 1].map(|axis| side(axis, f64::min, f64::INFINITY));
+    let [x1, y1] = [0, 1].map(|axis| side(axis, f64::max, f64::NEG_INFINITY));
+    let is_corner = |&[x, y]: &[f64; 2]| (x <= x0 || x >= x1) && (y <= y0 || y >= y1);
+    (corners.len() == 4 && corners.iter().all(is_corner)).then_some([x0, y0, x1, y1])
+}
+
 impl Item {
     fn of(row: &Row) -> Self {
         Self { name: format!("the {} `{}`", row.what, row.name), text: Self::text_of(row) }
@@ -72,15 +83,20 @@ impl Item {
         let further: Map<String, Value> = serde_json::from_str(&row.properties)
             .map_err(|_| "its properties are no JSON object".to_owned())?;
         let mut item = toml::Table::new();
-        if row.what != "obstacle" {
+        if !matches!(row.what.as_str(), "obstacle" | "bridge") {
             item.insert("name".to_owned(), row.name.as_str().into());
             item.extend(row.kind.as_deref().map(|kind| ("kind".to_owned(), kind.into())));
         }
+        let rect = rect_of(&corners);
         let mut corners = corners.iter().map(|&[x, y]| toml::Value::from(vec![x, y]));
-        if row.what == "place" {
-            item.extend(corners.next().map(|at| ("at".to_owned(), at)));
-        } else {
-            item.insert("polygon".to_owned(), corners.collect::<Vec<_>>().into());
+        match row.what.as_str() {
+            "place" => item.extend(corners.next().map(|at| ("at".to_owned(), at))),
+            "door" => item.extend(["from", "to"].map(str::to_owned).into_iter().zip(corners)),
+            "bridge" => {
+                let rect = rect.ok_or("a bridge is a rectangle along the axes")?;
+                item.insert("rect".to_owned(), rect.to_vec().into());
+            }
+            _ => drop(item.insert("polygon".to_owned(), corners.collect::<Vec<_>>().into())),
         }
         for (property, value) in further {
             let value = match value {

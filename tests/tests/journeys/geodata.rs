@@ -187,7 +187,7 @@ fn what_cannot_be_laid_is_refused_in_words_when_it_is_drawn_or_built() {
         "one polygon without holes",
         "name must not be empty",
         "properties must be a JSON object",
-        "what must be area, obstacle or place",
+        "what must be area, obstacle, place, bridge or door",
         "until must be a time in UTC",
         "",
         "UNIQUE constraint failed: drawn.name",

@@ -148,10 +148,10 @@ fn what_cannot_be_laid_is_refused_in_words_and_nothing_is_kept() {
         ),
         (&["area", "wet", "1,1 2,2", "--with", "zone=FOO"], "must be one of RELEASE, COORDINATED_REPLANNING"),
         (&["area", "wet", "1,1 2,2", "--until", "2020-01-01"], "that is over"),
-        (&["obstacle", "crate", "1,1 2,2", "--kind", "wet"], "only an area has a kind"),
+        (&["obstacle", "crate", "1,1 2,2", "--kind", "wet"], "only an area or a door has a kind"),
         (&["obstacle", "crate", "1,1"], "two corners or more"),
         (&["place", "shelf", "1,1 2,2"], "one point"),
-        (&["place", "shelf", "1,1", "--kind", "wet"], "only an area has a kind"),
+        (&["place", "shelf", "1,1", "--kind", "wet"], "only an area or a door has a kind"),
         (&["place", "home", "2,2"], "the map has a place `home` already"),
         (&["place", "shelf", "6,1"], "lies inside an obstacle of the map"),
         (&["obstacle", "crate", "1,1 2,x"], "is no corner"),
@@ -202,4 +202,61 @@ fn whoever_touches_a_wall_is_in_an_area_to_keep_out_of_as_well_as_beside_it() {
     // sideways it is 0.35 m wide, and passes
     let beside = site.adit("route", &["window", "0.3,4", "--json"]).expecting(0).json();
     assert_eq!(beside["waypoints"].as_array().unwrap().last().unwrap()["state"], "SIDE-STAND", "{beside:#}");
+}
+
+#[test]
+fn a_bridge_is_passed_under_by_who_fits_until_it_is_lifted() {
+    let site = starter();
+    let (free, before) = (cost(&site, &[]).unwrap(), content(&site));
+    let pipe = ["bridge", "pipe", "8,0 9,8", "--with", "height=1.3"];
+    site.adit("lay", &pipe).expect_status(0);
+    assert!(cost(&site, &[]).unwrap() > free + 1.0, "one squats beneath it");
+    let way = site.adit("why", &["home", "window"]).expecting(0).stdout;
+    assert!(way.contains("in window, from (7.7, 6.3)") && way.contains("leaves 1.3 m"), "{way}");
+    // one that is lower than all states is a wall
+    site.adit("lay", &["bridge", "beam", "9.5,0 10,8", "--with", "height=0.2"]).expect_status(0);
+    assert_eq!(cost(&site, &[]), None);
+    site.adit("lift", &["beam"]).expect_status(0);
+    site.adit("undo", &[]).expect_status(0);
+    assert_eq!(cost(&site, &[]), None, "the beam is back");
+    site.adit("lift", &["beam"]).expect_status(0);
+    site.adit("lift", &["pipe"]).expect_status(0);
+    assert_eq!(content(&site), before);
+}
+
+#[test]
+fn a_doorway_gets_a_name_and_a_hardness_by_which_it_is_closed_too() {
+    let site = starter();
+    let (free, before) = (cost(&site, &[]).unwrap(), content(&site));
+    let door = ["door", "ward door", "6,3 6,4", "--kind", "swing", "--with", "hardness=2"];
+    let said = site.adit("lay", &door).expecting(0).stdout;
+    assert!(said.contains("the door `ward door` lies over the map"), "{said}");
+    assert_eq!(site.sqlite3("SELECT name FROM doorways WHERE name IS NOT NULL"), ["ward door"]);
+    // rooms end at the doorway now, so the way is another one by a hair
+    assert!((cost(&site, &[]).unwrap() - free - 2.0).abs() < 0.1, "its hardness is paid");
+    site.adit("close", &["ward door"]).expect_status(0);
+    assert_eq!(cost(&site, &[]), None);
+    site.adit("open", &["ward door"]).expect_status(0);
+    site.adit("lift", &["ward door"]).expect_status(0);
+    assert_eq!(content(&site), before);
+}
+
+#[test]
+fn of_bridges_and_doors_what_is_missing_or_too_much_is_said() {
+    let site = starter();
+    let before = content(&site);
+    let only_height = "how high it is, and nothing else, is said of it, as `height=1.3`";
+    for (args, said) in [
+        (&["bridge", "pipe", "8,0 9,8"][..], only_height),
+        (&["bridge", "pipe", "8,0 9,8", "--with", "heigth=2"], only_height),
+        (&["bridge", "pipe", "8,0 9,8", "--with", "height=low"], "is a number of metres, not `low`"),
+        (&["bridge", "pipe", "8,0 9,8", "--with", "height=-1"], "must be more than 0"),
+        (&["bridge", "pipe", "8,0 9,8 7,9", "--with", "height=1"], "is said by two corners, not by 3"),
+        (&["bridge", "pipe", "8,0 9,1 8,2 7,1", "--with", "height=1"], "a rectangle along the axes"),
+        (&["door", "ward door", "6,3 6,4 7,4"], "is said by two points, the posts, not by 3"),
+        (&["door", "home", "6,3 6,4"], "home"),
+    ] {
+        site.adit("lay", args).expecting(2).complains(&[said]);
+        assert_eq!(content(&site), before, "{args:?}");
+    }
 }

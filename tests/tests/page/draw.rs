@@ -206,3 +206,44 @@ async fn save(browser: &Browser, words: &str) {
     browser.click("#save").await;
     browser.says("#saved", words).await;
 }
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_bridge_and_a_named_doorway_are_drawn_and_what_lies_there_is_measured() {
+    let (site, _service, browser) = starter().await;
+    browser.says("#route-title", "home to window").await;
+    let cost = browser.text("#route-title .total").await;
+    browser.click("#draw").await;
+    choose(&browser, "#draw-what", "bridge").await;
+    browser.drag_on_map([8.0, 0.0], [9.0, 8.0]).await;
+    browser.says("#preview", "needs a height").await;
+    browser.client.active_element().await.unwrap().send_keys("pipe").await.unwrap();
+    browser.type_into("#draw-height", "1.3").await;
+    browser.says("#preview", "New on the map: a bridge “pipe” (1.3 m high)").await;
+    browser.click("#draw-done").await;
+    browser.click("#draw").await;
+    choose(&browser, "#draw-what", "door").await;
+    browser.drag_on_map([6.0, 3.0], [6.0, 4.0]).await;
+    browser.says("#draw-size", "1.00 m wide").await;
+    browser.client.active_element().await.unwrap().send_keys("ward door").await.unwrap();
+    browser.says("#preview", "New on the map: a named doorway “ward door”").await;
+    browser.click("#draw-done").await;
+    browser.screenshot("draw-bridge").await;
+    save(&browser, "a bridge “pipe”").await;
+    assert_eq!(
+        site.sqlite3("SELECT what, name, outline, properties FROM laid ORDER BY name"),
+        [
+            "bridge|pipe|[[8.0,0.0],[9.0,0.0],[9.0,8.0],[8.0,8.0]]|{\"height\":1.3}",
+            "door|ward door|[[6.0,3.0],[6.0,4.0]]|{}"
+        ]
+    );
+    browser
+        .until(&format!("document.querySelector('#route-title .total').innerText !== {cost:?}"), "one squats")
+        .await;
+
+    // from wall to wall of the doorway
+    browser.click("#measuring").await;
+    browser.tap_on_map([6.0, 3.0]).await;
+    browser.tap_on_map([6.0, 4.0]).await;
+    browser.says("#measured", "1.00 m").await;
+    browser.screenshot("measured").await;
+}

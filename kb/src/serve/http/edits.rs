@@ -262,6 +262,8 @@ impl Wish {
                     LaidThing::Area => Thing::Area,
                     LaidThing::Obstacle => Thing::Obstacle,
                     LaidThing::Place => Thing::Place,
+                    LaidThing::Bridge => Thing::Bridge,
+                    LaidThing::Door => Thing::Door,
                 };
                 let until = until.or(for_seconds.map(|seconds| format!("{seconds} seconds")));
                 let properties = properties.into_iter().map(|(name, value)| (name, value.text())).collect();
@@ -301,16 +303,17 @@ fn all(edits: Vec<Wish>) -> Answered<Vec<Edit>> {
     edits.into_iter().map(Wish::edit).collect()
 }
 
-/// An area, an obstacle or a place that people lay over the map.
+/// An area, an obstacle, a place, a bridge or a named door that people lay over the map.
 #[derive(Debug, Deserialize, ToSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LaidBody {
     #[serde(default)]
     pub(super) what: LaidThing,
     pub(super) name: String,
-    /// `[x, y]` in metres, in the order in which they follow one another; two are those of a rectangle, and one is a place.
+    /// `[x, y]` in metres, in the order in which they follow one another; two are those of a rectangle or the posts of a door, and one is a
+    /// place.
     pub(super) corners: Vec<[f64; 2]>,
-    /// What is said of an area; `kind` is what it is: `wet`, `keep-out`.
+    /// What is said of an area or a door, and the `height` of a bridge; `kind` is what it is: `wet`, `keep-out`.
     #[serde(default)]
     #[schema(value_type = std::collections::BTreeMap<String, serde_json::Value>)]
     pub(super) properties: BTreeMap<String, Scalar>,
@@ -332,6 +335,10 @@ pub enum LaidThing {
     Obstacle,
     /// A named point, from and to which ways lead.
     Place,
+    /// Something to pass under, a rectangle along the axes; its `height` in metres stands among the properties.
+    Bridge,
+    /// A doorway with a name, from post to post.
+    Door,
 }
 
 #[derive(Debug, Deserialize, ToSchema)]
