@@ -10,6 +10,7 @@ import { laidAt } from './laid.js';
 import { showPoint, showScale } from './measure.js';
 import { measuring, startMeasuring } from './measuring.js';
 import { model } from './model.js';
+import { showScan } from './scan.js';
 import { inks, paint, paintOver } from './paint.js';
 import { Patches } from './patches.js';
 import { Finder, boxOf } from './places.js';
@@ -118,6 +119,7 @@ function layerChoice() {
   if (options.some((option) => option.value === before)) byId('layer').value = before;
   byId('layer-choice').hidden = options.length < 2;
   byId('pieces-choice').hidden = !roomsWeigh();
+  byId('scan-choice').hidden = !model.map.scan;
 }
 
 const fit = () => { if (canvas.clientWidth) camera.fit(model.map.bounds); };
@@ -265,6 +267,7 @@ export function startMap(lead) {
   byId('zoom-fit').addEventListener('click', fit);
   byId('layer').addEventListener('change', redraw);
   byId('pieces').addEventListener('change', redraw);
+  byId('scan').addEventListener('change', () => showScan(byId('scan').checked, redraw));
   model.on('map', newMap);
   model.on('weights', redraw);
   // The words of a preview come first: on a large floor it takes a moment to find what is drawn otherwise.

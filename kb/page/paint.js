@@ -3,6 +3,7 @@
 import { Labels, labelFloor } from './labels.js';
 import { model } from './model.js';
 import { hatching } from './palette.js';
+import { paintScan, seesScan } from './scan.js';
 import { polygon, trace } from './shapes.js';
 import { colour } from './theme.js';
 import { showsPieces } from './thing.js';
@@ -64,10 +65,14 @@ export function* paint(context, camera, shown, still, ink, find) {
   context.fillStyle = ink.free;
   const [x0, y0, x1, y1] = model.map.bounds;
   context.fillRect(x0, y0, x1 - x0, y1 - y0);
+  const isScanned = seesScan();
+  if (isScanned) paintScan(context);
+  const over = isScanned ? 0.45 : 1;
   for (const group of shown.roomGroups) {
+    context.globalAlpha = over;
     context.fillStyle = group.changed ? ink.changed : group.kind >= 0 ? shown.classes.colour(group.kind)
       : group.kind === -1 ? ink.barred : group.kind === -2 ? ink.unknown : shown.actions.colour(group.action);
-    if (group.kind === -3 && !group.changed) context.globalAlpha = 0.13;
+    if (group.kind === -3 && !group.changed) context.globalAlpha = 0.13 * over;
     context.lineWidth = group.changed ? 1.5 * pixel : 0.6 * pixel;
     context.strokeStyle = group.changed ? ink['amber-line'] : ink.line;
     const paths = group.patches.seen(seen);
@@ -85,7 +90,8 @@ export function* paint(context, camera, shown, still, ink, find) {
   context.fillStyle = ink.bridge;
   context.fill(still.bridges);
   context.fillStyle = ink.wall;
-  for (const path of still.walls.seen(seen)) {
+  // What was scanned has its walls in it.
+  for (const path of isScanned ? [] : still.walls.seen(seen)) {
     context.fill(path);
     yield;
   }

@@ -61,27 +61,43 @@ pub(crate) fn text_of(path: &Path) -> io::Result<String> {
     })
 }
 
+/// What a scanner saw, where the map is an image: a PNG in grey whose longer side has at most so many pixels. It covers the
+/// map from edge to edge. `None`: the map is drawn.
+pub fn read_scan(path: &Path, most: usize) -> Result<Option<Vec<u8>>, MapErrors> {
+    if !matches!(extension(path).as_str(), "yaml" | "yml") {
+        return Ok(None);
+    }
+    let folder = path.parent().unwrap_or(Path::new(""));
+    ros_map::read_scan(&path.display().to_string(), &map_text(path)?, folder, most).map(Some)
+}
+
+fn extension(path: &Path) -> String {
+    path.extension().and_then(|extension| extension.to_str()).unwrap_or_default().to_lowercase()
+}
+
+fn map_text(path: &Path) -> Result<String, MapErrors> {
+    let unreadable = |error| {
+        let message = format!("the map `{}` cannot be read: {error}", path.display());
+        Problem::of_file(Code::Unreadable, message)
+    };
+    Ok(text_of(path).map_err(unreadable)?)
+}
+
 fn read(path: &Path, settings: &MapSettings) -> Result<(World, MapReport), MapErrors> {
     settings.check()?;
     let name = path.display().to_string();
-    let extension = path.extension().and_then(|e| e.to_str()).unwrap_or_default().to_lowercase();
     // a pipe or a device may never end
     if path.exists() && !path.is_file() {
         return Err(Problem::of_file(Code::Unreadable, format!("the map `{name}` is no file")).into());
     }
-    let text = || {
-        text_of(path).map_err(|error| {
-            Problem::of_file(Code::Unreadable, format!("the map `{name}` cannot be read: {error}"))
-        })
-    };
-    let (mut world, report) = match extension.as_str() {
+    let (mut world, report) = match extension(path).as_str() {
         "toml" => {
-            let (world, notes) = toml_map::read_toml_map(&name, &text()?)?;
+            let (world, notes) = toml_map::read_toml_map(&name, &map_text(path)?)?;
             (world, MapReport { notes, ..MapReport::default() })
         }
         "yaml" | "yml" => {
             let folder = path.parent().unwrap_or(Path::new(""));
-            ros_map::read_ros_map(&name, &text()?, folder, settings)?
+            ros_map::read_ros_map(&name, &map_text(path)?, folder, settings)?
         }
         _ => {
             let message = format!("the map `{name}` is of no known format");

@@ -63,6 +63,7 @@ fn described() -> (Router<Arc<Shared>>, OpenApi) {
         .routes(routes!(floor::floor))
         .routes(routes!(map::weights))
         .routes(routes!(map::picture))
+        .routes(routes!(map::scan))
         .routes(routes!(route::route))
         .routes(routes!(follow::follow))
         .routes(routes!(follow::moved))

@@ -6,9 +6,9 @@ use std::io::{self, BufReader, ErrorKind, Read, Seek, SeekFrom};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
-use image::codecs::png::PngDecoder;
+use image::codecs::png::{PngDecoder, PngEncoder};
 use image::codecs::pnm::PnmDecoder;
-use image::{ColorType, ImageDecoder, ImageError, Limits};
+use image::{ColorType, ExtendedColorType, ImageDecoder, ImageEncoder, ImageError, Limits};
 
 use super::diagnostic::{Code, MapErrors, Problem, Text};
 use super::ros_map::yaml::{MapFile, Pixel};
@@ -36,6 +36,25 @@ impl Image {
             [r, g, b, alpha, ..] => Pixel { colour: mean(r, g, b), alpha: Some(alpha) },
             [] => Pixel { colour: 0.0, alpha: None },
         })
+    }
+}
+
+impl Image {
+    /// As a PNG in grey whose longer side has at most so many pixels: of those that become one the darkest counts, so that walls stay.
+    pub(crate) fn png(&self, most: usize) -> Result<Vec<u8>, ImageError> {
+        let step = self.columns.max(self.rows).div_ceil(most.max(1));
+        let (columns, rows) = (self.columns.div_ceil(step), self.rows.div_ceil(step));
+        let mut grey = vec![u8::MAX; columns * rows];
+        for (at, pixel) in self.bottom_up().enumerate() {
+            // pictures begin above
+            let (column, row) = (at % self.columns, self.rows - 1 - at / self.columns);
+            let shade = &mut grey[row / step * columns + column / step];
+            *shade = (*shade).min(pixel.colour.round() as u8);
+        }
+        let mut png = Vec::new();
+        let encoder = PngEncoder::new(&mut png);
+        encoder.write_image(&grey, columns as u32, rows as u32, ExtendedColorType::L8)?;
+        Ok(png)
     }
 }
 

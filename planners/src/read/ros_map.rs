@@ -54,6 +54,17 @@ pub fn read_ros_map(
     Ok((world, report))
 }
 
+/// The image of a map of ROS as a PNG in grey, whose longer side has at most so many pixels.
+///
+/// # Arguments
+/// `name` is how messages call the file, `text` its content.
+pub fn read_scan(name: &str, text: &str, folder: &Path, most: usize) -> Result<Vec<u8>, MapErrors> {
+    let source = Text::new(name, text);
+    let file = yaml::parse(&source, text)?;
+    let png = read_image(&source, &file, folder)?.png(most);
+    Ok(png.map_err(|error| Problem::of_file(Code::NotAnImage, format!("{}: {error}", file.image)))?)
+}
+
 /// A word about an origin that is turned: that its yaw is not applied, which whoever says points has to know.
 fn turned(name: &str, origin: Pose) -> Option<Problem> {
     let yaw = origin.heading;

@@ -223,7 +223,8 @@ async fn tune(hands: &mut Hands) {
     hands.step("undone");
 }
 
-async fn from_a_scan_to_a_tuned_site(screen: Screen) {
+/// A site of that scan, as `adit new` begins one.
+fn scanned() -> TestSite {
     let site = TestSite::empty();
     let (image, about) = scan();
     std::fs::create_dir(site.path().join("scans")).unwrap();
@@ -235,6 +236,11 @@ async fn from_a_scan_to_a_tuned_site(screen: Screen) {
     };
     new(&["new", ".", "--map", "scans/scan.yaml", "--robot", "humanoid"]);
     new(&["build", "."]);
+    site
+}
+
+async fn from_a_scan_to_a_tuned_site(screen: Screen) {
+    let site = scanned();
     let service = Service::start(&site);
     let browser = Browser::open(&service.page(""), screen).await;
     let mut hands = Hands { browser, keys: 0, began: Instant::now(), told: Vec::new() };
@@ -253,4 +259,24 @@ async fn at_a_desk_by_keys_alone() {
 #[tokio::test(flavor = "multi_thread")]
 async fn on_a_phone_by_keys_alone() {
     from_a_scan_to_a_tuned_site(Screen::Phone).await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn what_was_scanned_lies_beneath_the_map() {
+    let site = scanned();
+    let service = Service::start(&site);
+    let (_, map) = service.ask("GET", "/api/map", None);
+    assert_eq!(map["scan"], serde_json::json!([0.0, 0.0, 12.0, 8.0]));
+    let browser = Browser::open(&service.page("#map"), Screen::Desktop).await;
+    let painted = "document.getElementById('canvas').dataset.painted === document.getElementById('canvas').dataset.view";
+    // a pixel within a wall is black where it was scanned, and as black as walls are painted where it was not
+    let shades = "(() => { const canvas = document.getElementById('canvas'); const of = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data; \
+                  let black = 0; for (let at = 0; at < of.length; at += 4) black += of[at] + of[at + 1] + of[at + 2] === 0; return black; })()";
+    browser.until(painted, "all is painted").await;
+    let before = browser.value(shades).await.as_u64().unwrap();
+    browser.click("#scan").await;
+    browser.until(&format!("{painted} && {shades} > {before} + 1000"), "the scan is seen").await;
+    browser.screenshot("scan").await;
+    browser.click("#scan").await;
+    browser.until(&format!("{painted} && {shades} === {before}"), "the scan is gone").await;
 }

@@ -7,12 +7,14 @@ use serde::{Deserialize, Serialize};
 use utoipa::ToSchema;
 
 use super::extract::{Asked, Site};
+use crate::error::{Code, Error};
 use crate::graph::{Building, SiteGraph};
 use crate::live::View;
 use crate::serve::fault::Answered;
 use adit_db::door::{Door, DoorKind};
 use adit_db::space::{Doorway, Space};
 use adit_planners::geometry::Convex;
+use adit_planners::read::read_scan;
 use adit_planners::world::{Shape, World};
 
 #[derive(Serialize, ToSchema)]
@@ -22,6 +24,8 @@ pub struct MapAnswer {
     generation: u64,
     /// The map's edges: x0, y0, x1, y1.
     pub(super) bounds: [f64; 4],
+    /// Where `/api/scan` lies, x0, y0, x1, y1; null where the map is no image.
+    scan: Option<[f64; 4]>,
     /// Everything solid: polygons as x, y, x, y, …
     pub(super) walls: Vec<Vec<f64>>,
     bridges: Vec<BridgeOf>,
@@ -152,6 +156,7 @@ impl MapAnswer {
             layout: view.layout().to_owned(),
             generation: view.generation(),
             bounds: [b.x0, b.y0, b.x1, b.y1],
+            scan: world.occupancy.as_ref().map(|scanned| rect(&scanned.bounds())),
             walls: walls(world),
             bridges: world
                 .bridges
@@ -220,6 +225,22 @@ pub async fn picture(site: Site, Asked(asked): Asked<Drawn>) -> Answered<Respons
     });
     let svg = svg.await?;
     Ok(([(header::CONTENT_TYPE, "image/svg+xml")], svg).into_response())
+}
+
+/// The longer side of a scan that is sent, pixels.
+const SCAN: usize = 4_096;
+
+/// What a scanner saw, where the map is an image: PNG, in grey, from edge to edge of the map, of at most 4,096 pixels a side.
+#[utoipa::path(get, path = "/api/scan", tag = "map",
+    responses((status = 200, body = Vec<u8>, content_type = "image/png")))]
+pub async fn scan(site: Site) -> Answered<Response> {
+    let seen = site.view.load_full();
+    let png = site.at_length(move || {
+        let map = &seen.view.site().site().map;
+        let drawn = || Error::said(Code::ServiceUnknown, "the map is drawn: nothing was scanned", None);
+        read_scan(map, SCAN).map_err(|errors| Error::all(errors.problems))?.ok_or_else(drawn)
+    });
+    Ok(([(header::CONTENT_TYPE, "image/png")], png.await?).into_response())
 }
 
 fn space(space: &Space) -> SpaceOf {
