@@ -11,6 +11,8 @@ export class Camera {
     this.scale = 1;
     this.shift = [0, 0];
     this.bounds = [0, 0, 1, 1];
+    /** Whether the whole map is seen, as {@link fit} shows it. */ this.isWhole = true;
+    /** What of the canvas, from below, the whole map is not shown on, pixels. */ this.below = 0;
     /** Whoever may take a press instead of the map: `press(point, event)`, `drag`, `finish`. */ this.tool = null;
   }
 
@@ -18,12 +20,20 @@ export class Camera {
   fit(bounds = this.bounds) {
     this.bounds = bounds;
     const [x0, y0, x1, y1] = bounds;
-    const { clientWidth: width, clientHeight: height } = this.canvas;
+    const { clientWidth: width, clientHeight } = this.canvas;
+    const height = Math.max(clientHeight / 2, clientHeight - this.below);
     const margin = Math.min(width, height) * 0.03 + 4;
     this.scale = Math.max(1e-3, Math.min((width - 2 * margin) / (x1 - x0), (height - 2 * margin) / (y1 - y0)));
     this.least = this.scale / 3;
     this.shift = [width / 2 - (this.scale * (x0 + x1)) / 2, height / 2 + (this.scale * (y0 + y1)) / 2];
+    this.isWhole = true;
     this.moved();
+  }
+
+  /** The canvas has become wider and higher by so much: the whole map, or what was in its middle, is there still. */
+  grown(wider, higher) {
+    if (this.isWhole) this.fit();
+    else this.pan(wider / 2, higher / 2);
   }
 
   /** The view as it is now, which does not move along. */
@@ -53,6 +63,7 @@ export class Camera {
 
   pan(dx, dy) {
     this.shift = [this.shift[0] + dx, this.shift[1] + dy];
+    this.isWhole = false;
     this.moved();
   }
 
@@ -61,6 +72,7 @@ export class Camera {
     const [x, y] = this.toMap(about);
     this.scale = Math.max(this.least ?? 1e-3, Math.min(2000, this.scale * factor));
     this.shift = [about[0] - x * this.scale, about[1] + y * this.scale];
+    this.isWhole = false;
     this.moved();
   }
 

@@ -21,6 +21,7 @@ import { refresh } from './refresh.js';
 import { startRoute } from './route.js';
 import { address, onTab, route } from './router.js';
 import { startRules } from './rules.js';
+import { startSheet } from './sheet.js';
 import { startSql } from './sql.js';
 import { follow } from './stream.js';
 import { startTables } from './table.js';
@@ -105,6 +106,7 @@ async function begin() {
 }
 
 function start() {
+  startSheet();
   startMap(lead);
   startPicture();
   startEnds();

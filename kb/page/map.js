@@ -31,6 +31,7 @@ let pointed = null;
 let waiting = false;
 let isFloorDue = false;
 let layout = null;
+let size = [0, 0];
 
 /** Draws the layer over the floor again at the next frame: what is pointed at, and what waits. */
 function invalidateOver() {
@@ -103,8 +104,6 @@ function newMap() {
     still.namedDoors.lineTo(...to);
   }
   layerChoice();
-  const [x0, y0, x1, y1] = map.bounds;
-  byId('map-box').style.setProperty('--aspect', String((x1 - x0) / (y1 - y0)));
   pointed = null;
   if (layout === null || String(map.bounds) !== String(camera.bounds)) fit();
   layout = map.layout;
@@ -123,6 +122,14 @@ function layerChoice() {
 }
 
 const fit = () => { if (canvas.clientWidth) camera.fit(model.map.bounds); };
+
+// What stands at the foot of the map lies on nothing of the whole map. What a preview adds to it moves no map.
+function standAbove() {
+  const { offsetHeight } = byId('map-foot');
+  if (model.tried || !offsetHeight || camera.below === offsetHeight) return;
+  camera.below = offsetHeight;
+  if (model.map && camera.isWhole) fit();
+}
 
 function legend() {
   const { actions, classes } = shown;
@@ -196,7 +203,6 @@ function tipText(thing) {
 
 function resize() {
   const dense = window.devicePixelRatio || 1;
-  const first = canvas.width === 300 && canvas.height === 150;
   const { clientWidth: width, clientHeight: height } = canvas;
   if (!width) return;
   if (canvas.width !== Math.round(width * dense) || canvas.height !== Math.round(height * dense)) {
@@ -204,7 +210,9 @@ function resize() {
       layer.width = Math.round(width * dense);
       layer.height = Math.round(height * dense);
     }
-    if (model.map && (first || camera.scale === 1)) fit();
+    const [wider, higher] = [width - size[0], height - size[1]];
+    size = [width, height];
+    if (model.map) camera.bounds === model.map.bounds ? camera.grown(wider, higher) : fit();
     invalidate();
   }
 }
@@ -286,4 +294,5 @@ export function startMap(lead) {
     redraw();
   });
   new ResizeObserver(resize).observe(canvas);
+  new ResizeObserver(standAbove).observe(byId('map-foot'));
 }
