@@ -30,8 +30,8 @@ const isAlwaysSeen = (node) => Boolean(node.closest('#saved, .tray'));
 function follow() {
   let pressed = -PRESS_MS;
   side.addEventListener('pointerdown', (event) => { pressed = event.timeStamp; });
-  // What is pressed must not move away before it has heard so.
-  side.addEventListener('click', ({ target }) => { if (!isAlwaysSeen(target)) pull(true); });
+  // What is pressed must not move away before the finger is up; what it does may pull the sheet down again.
+  side.addEventListener('click', ({ target }) => { if (!isAlwaysSeen(target)) pull(true); }, true);
   side.addEventListener('focusin', ({ target, timeStamp }) => {
     if (isUp() || isAlwaysSeen(target) || timeStamp - pressed < PRESS_MS) return;
     pull(true);
