@@ -1,4 +1,4 @@
-/** The cards under the map: why something is so, and why not that way. */
+/** The cards beside the map: why something is so, and why not that way. */
 
 import { get, path } from './api.js';
 import { titleOf } from './cells.js';
@@ -14,7 +14,7 @@ import { address } from './router.js';
 const MADE = 'tests/made.toml';
 
 /**
- * A card under the map; one of its kind that is there goes. It takes the focus, and comes into sight, where that is wanted:
+ * A card beside the map; one of its kind that is there goes. It takes the focus, and comes into sight, where that is wanted:
  * not from under the hand of somebody who has gone on since they asked.
  */
 export function card(id, title, content, isWanted = () => true) {
