@@ -212,7 +212,8 @@ function resize() {
     }
     const [wider, higher] = [width - size[0], height - size[1]];
     size = [width, height];
-    if (model.map) camera.bounds === model.map.bounds ? camera.grown(wider, higher) : fit();
+    if (model.map && String(camera.bounds) === String(model.map.bounds)) camera.grown(wider, higher);
+    else if (model.map) fit();
     invalidate();
   }
 }
