@@ -48,16 +48,9 @@ function takeButton(cell) {
   }, { 'aria-label': `Take ${rounded(cell)} for ${cell.column} of ${keyName(cell.key)}` });
 }
 
-// What is not there needs no button that deletes it. All are asked for only where none of this robot fits.
-async function offerForget(fit) {
-  const pressed = byId('traversals-forget');
-  if (pressed) pressed.hidden = !(fit?.observations > 0) && !(await get('/api/traversals')).traversals.length;
-}
-
 async function load() {
-  let fit = null;
   try {
-    fit = await get(path('/api/fit', { robot: model.ask.robot }));
+    const fit = await get(path('/api/fit', { robot: model.ask.robot }));
     const rows = fit.cells.map((cell) => [keyName(cell.key), cell.column, value(cell.present), el('b', { text: known(cell) ? number(cell.proposed) : 'cannot be told' }), cell.low === null ? '' : `${number(cell.low)} to ${number(cell.high)}`, String(cell.observations ?? ''), takeButton(cell)]);
     const notes = (fit.notes ?? []).map((text) => el('p', { class: 'hint', text }));
     const pending = model.pending.size ? el('p', {}, `${model.pending.size} taken. `, el('a', { href: '#map', text: 'See on the map what they would change, and save' })) : null;
@@ -65,12 +58,12 @@ async function load() {
   } catch (error) {
     fill(byId('fit'), said(error));
   }
-  // What the service does not say now, it says when it is asked again.
-  await offerForget(fit).catch(() => {});
 }
 
 async function forget() {
   const { traversals } = await get('/api/traversals');
+  // Robots measure meanwhile, so there may be some as soon as one looks.
+  if (!traversals.length) return fill(byId('experience-said'), el('p', { role: 'status', text: 'No measurements are kept.' }));
   if (!await sure(`Delete all ${count(traversals.length, 'measurement')}? No route changes by that. They cannot be brought back.`, 'Delete them')) return undefined;
   try {
     await call('DELETE', '/api/traversals');
@@ -79,7 +72,6 @@ async function forget() {
     fill(byId('experience-said'), said(error));
   }
   await load();
-  if (byId('traversals-forget').hidden) byId('traversals-add').focus({ preventScroll: true });
   return undefined;
 }
 
@@ -94,7 +86,7 @@ function show() {
         el('p', { class: 'hint', text: 'A row a stretch: its state or action, metres, and what was measured. Rows of one mission share its total.' }),
         el('label', {}, 'File (CSV) ', file), el('label', {}, 'or paste rows ', el('textarea', { id: 'traversals', rows: '6', placeholder: EXAMPLE })),
         el('label', {}, 'Measured in ', measure),
-        el('div', { class: 'buttons' }, button('Add', () => add(byId('traversals').value), { id: 'traversals-add', class: 'strong' }), button('Delete all measurements', forget, { id: 'traversals-forget', hidden: true })),
+        el('div', { class: 'buttons' }, button('Add', () => add(byId('traversals').value), { id: 'traversals-add', class: 'strong' }), button('Delete all measurements', forget)),
         el('div', { id: 'experience-said' })) : null);
   }
   return load();

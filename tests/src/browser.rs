@@ -107,10 +107,13 @@ impl Browser {
         }
     }
 
-    /// Clicks the first such element; once more where the page has just put another in its place.
+    /// Clicks the first such element; once more where the page has just put another in its place, and from the middle of what
+    /// scrolls where something lies over it.
     pub async fn click(&self, css: &str) {
         let began = Instant::now();
         while let Err(error) = self.find(css).await.click().await {
+            self.run(&format!("document.querySelector({css:?})?.scrollIntoView({{ block: 'center' }})"))
+                .await;
             assert!(began.elapsed() < PATIENCE, "{css} cannot be clicked: {error}");
             tokio::time::sleep(Duration::from_millis(30)).await;
         }

@@ -53,6 +53,8 @@ async fn every_tab(screen: Screen) {
                     browser.click("#why-card summary").await;
                     browser.find("#why-card .reasons").await;
                     browser.run("document.querySelector('.row-forms').open = true").await;
+                    // on a phone the sheet goes down where the map is meant
+                    browser.run("document.getElementById('canvas').focus()").await;
                     browser.click("#draw").await;
                     browser.type_into("#draw-corners", "1,1 2,2").await;
                     browser.says("#preview", "needs a name").await;
