@@ -116,7 +116,7 @@ async fn preview(browser: &Browser, column: &str, value: f64) -> f64 {
 #[tokio::test(flavor = "multi_thread")]
 #[ignore = "a measurement"]
 async fn a_floor_of_forty_two_thousand_rooms_is_worked_with_at_ease() {
-    let (_site, service) = offices(2_180, 1_240);
+    let (_site, service) = offices(2_240, 1_276);
     let (_, about) = service.ask("GET", "/api/site", None);
     let browser = Browser::open(&service.page("#map?start=west&goal=east"), Screen::Desktop).await;
     browser.says("#route-title", "west to east").await;
