@@ -235,6 +235,7 @@ impl Before {
             notes.extend(unfit_places(&state));
         }
         notes.retain(|note| !known_notes.contains(note));
+        notes.extend(gone_places(&before, &after));
         let Otherwise { cells, conclusions, rules } = said;
         let preview = Preview {
             generation: state.generation,
@@ -253,6 +254,27 @@ impl Before {
         // nobody waits until all of it is given back
         rayon::spawn(|| drop((state, moment, before, after)));
         Ok(preview)
+    }
+}
+
+/// A word about places that would be no more: routes from and to them are none that change.
+fn gone_places(before: &SiteGraph, after: &SiteGraph) -> Option<String> {
+    let stays = |name: &str| after.places.iter().any(|place| place.place == name);
+    let gone: Vec<String> = before
+        .places
+        .iter()
+        .filter(|place| !stays(&place.place))
+        .map(|place| format!("`{}`", place.place))
+        .collect();
+    match gone.as_slice() {
+        [] => None,
+        [only] => Some(format!("the place {only} would be gone, and with it the routes from and to it")),
+        [all @ .., last] => {
+            let all = all.join(", ");
+            Some(format!(
+                "the places {all} and {last} would be gone, and with them the routes from and to them"
+            ))
+        }
     }
 }
 

@@ -178,3 +178,22 @@ fn what_changes_nothing_is_said_to_change_nothing() {
     assert_eq!((preview.rooms.changed, preview.doors.changed, preview.routes.changed), (0, 0, 0));
     assert_eq!(preview.routes.compared, preview.routes.total);
 }
+
+#[test]
+fn places_that_would_go_are_named_since_no_route_of_theirs_is_left_to_change() {
+    let site = TestSite::example("starter")
+        .with("site.toml", "map = \"map.toml\"\nrobots = \"robots.toml\"\n")
+        .built();
+    for (name, at) in [("charger", "9,2"), ("shelf", "2,6")] {
+        site.adit("lay", &["place", name, at]).expect_status(0);
+    }
+    let would = |edits: &[Edit]| live(&site).preview(edits, None).unwrap().notes;
+    let gone = would(&[Edit::Undo(Some(2))]);
+    assert_eq!(gone, ["the place `shelf` would be gone, and with it the routes from and to it"]);
+    let gone = would(&[Edit::Undo(Some(2)), Edit::Undo(Some(1))]);
+    assert_eq!(
+        gone,
+        ["the places `charger` and `shelf` would be gone, and with them the routes from and to them"]
+    );
+    assert_eq!(would(&[set("robots", "SQUAT", "hardness", "3")]), [""; 0]);
+}
