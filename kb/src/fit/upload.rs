@@ -117,6 +117,10 @@ pub(super) fn checked(
     before: &[Traversal],
     who: &str,
 ) -> Result<Vec<Traversal>> {
+    if rows.is_empty() {
+        let help = "a row is a stretch: its state or action, metres, and what was measured".to_owned();
+        return Err(Error::said(Code::FitRow, "there is no row to add", Some(help)));
+    }
     let mut totals: BTreeMap<(String, String, String), f64> = BTreeMap::new();
     for row in before {
         if let Some(mission) = &row.mission {
@@ -192,10 +196,19 @@ fn state_of<'s>(number: usize, row: &Row, states: &'s [State]) -> Result<&'s Sta
     };
     let own: Vec<&State> = states.iter().filter(|state| state.robot == robot).collect();
     match (&row.state, &row.action) {
-        (Some(name), _) => own.iter().find(|state| state.state == *name).copied().ok_or_else(|| {
-            let help = did_you_mean(name, own.iter().map(|state| &*state.state));
-            refused(number, format!("{robot} has no state `{name}`"), help)
-        }),
+        (Some(name), action) => {
+            let found = own.iter().find(|state| state.state == *name).copied().ok_or_else(|| {
+                let help = did_you_mean(name, own.iter().map(|state| &*state.state));
+                refused(number, format!("{robot} has no state `{name}`"), help)
+            })?;
+            match action {
+                Some(action) if *action != found.action => {
+                    let what = format!("the action of {name} is `{}`, and not `{action}`", found.action);
+                    Err(refused(number, what, Some("say the state alone, or the action alone".to_owned())))
+                }
+                _ => Ok(found),
+            }
+        }
         (None, Some(action)) => {
             let found: Vec<&&State> = own.iter().filter(|state| state.action == *action).collect();
             match found.as_slice() {

@@ -177,12 +177,19 @@ fn one_bad_row_and_nothing_is_added() {
         ("m,STAND,10,20\nm,SQUAT,1,21\n", "row 2: mission `m` measured 21 here and 20 in another row"),
         (",STAND,10\n", "row 1: 3 values under 4 names"),
         (",,10,20\n", "row 1: it names no state and no action"),
+        ("", "there is no row to add"),
     ] {
         site.write("run.csv", format!("{HEAD}{rows}"));
         let args = ["--add", file.to_str().unwrap(), "--measure", "seconds"];
         site.adit("fit", &args).expecting(2).complains(&[complaint]);
         assert_eq!(site.sqlite3("SELECT count(*) FROM traversals"), ["0"], "{rows}");
     }
+    site.write("run.csv", "state,action,distance,measured\nSTAND,WALK,1,2\nSTAND,SIDE-WALK,1,2\n");
+    let args = ["--add", file.to_str().unwrap(), "--measure", "seconds"];
+    site.adit("fit", &args)
+        .expecting(2)
+        .complains(&["row 2: the action of STAND is `WALK`, and not `SIDE-WALK`"]);
+    assert_eq!(site.sqlite3("SELECT count(*) FROM traversals"), ["0"]);
     site.write("run.csv", "state;distance;taken\nSTAND;1;2\n");
     site.adit("fit", &["--add", file.to_str().unwrap()]).expecting(2).complains(&["a column `taken`"]);
 }
