@@ -136,7 +136,7 @@ codes! {
 
     /// A CSV of traversals has a column that it should not have, or lacks one.
     FitColumn = "fit/column", BAD_REQUEST;
-    /// A traversal cannot be; none of those that came with it was added.
+    /// A traversal cannot be, or there is none; none of those that came with it was added.
     FitRow = "fit/row", BAD_REQUEST;
     /// Nothing is measured in this measure.
     FitUnknownMeasure = "fit/unknown-measure", NOT_FOUND;
@@ -159,7 +159,7 @@ codes! {
     LaidUnknown = "laid/unknown", NOT_FOUND;
     /// A row of the table `laid` cannot be read.
     LaidUnreadable = "laid/unreadable", BAD_REQUEST;
-    /// What is laid over a map is an area, or an obstacle or a place, which are of no kind; its corners are pairs of numbers, of a place one.
+    /// What is laid over a map is an area or a door, or an obstacle, a place or a bridge, which are of no kind; its corners are pairs of numbers, of a place one, of a door two; a bridge has a height and nothing else.
     LaidUsage = "laid/usage", BAD_REQUEST;
 
     /// A layer is written as .geojson or .json.
