@@ -198,8 +198,19 @@ impl Browser {
     /// Where a point of the map is on the screen, in pixels from the middle of the canvas.
     async fn on_screen(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         let seen = "(({ dataset, clientWidth, clientHeight }) => [...dataset.view.split(' ').map(Number), clientWidth, clientHeight])(document.getElementById('canvas'))";
-        self.until("document.getElementById('canvas').dataset.view", "the map is drawn").await;
-        let seen: Vec<f64> = serde_json::from_value(self.value(seen).await).expect("numbers");
+        let is_painted = "(({ dataset }) => dataset.view && dataset.painted === dataset.view)(document.getElementById('canvas'))";
+        self.until(is_painted, "the map is drawn").await;
+        // while a page comes to its size the map does, too
+        let mut before = Value::Null;
+        let seen = loop {
+            let now = self.value(seen).await;
+            if now == before {
+                break now;
+            }
+            before = now;
+            tokio::time::sleep(Duration::from_millis(120)).await;
+        };
+        let seen: Vec<f64> = serde_json::from_value(seen).expect("numbers");
         let [scale, right, down, width, height] = seen[..] else { panic!("{seen:?}") };
         [(right + x * scale - width / 2.0).round(), (down - y * scale - height / 2.0).round()]
     }
