@@ -6,9 +6,7 @@ import { number, untilWhen, value } from './format.js';
 import { corners, size, span } from './measure.js';
 import { model } from './model.js';
 import { discard, put } from './pending.js';
-import { Snapper } from './snap.js';
-
-const REACH_PX = 10;
+import { REACH_PX, Snapper } from './snap.js';
 
 let tool = null;
 let map = null;
@@ -32,12 +30,9 @@ class Tool {
   /** Whether two points say where it is. */
   get hasTwo() { return this.isRectangle || this.isDoor; }
 
-  /** The map's point that is meant by one of the screen. */
   meant(at, event) {
-    const point = this.camera.toMap(at);
-    if (event?.altKey) return point.map((metres) => Number(metres.toFixed(3)));
     this.snapper ??= new Snapper(model.map);
-    return this.snapper.at(point, REACH_PX / this.camera.scale, 1 / this.camera.scale);
+    return this.snapper.meant(this.camera, at, event);
   }
 
   /** Whether a press is for the drawing, and not to move the map. */

@@ -19,12 +19,12 @@ function rowOf(of) {
 const plain = (of) => value(of).replaceAll('_', ' ');
 
 /** Who edits without a name, by where that is done. */
-const PLACES = { page: 'on this page', cli: 'on the command line', http: 'by a program' };
+const PLACES = { page: 'on the page', cli: 'on the command line', http: 'by a program' };
 
 /** Who did something, in words: a name, or where it was done. */
 export const author = (who) => (Object.hasOwn(PLACES, who ?? '') ? PLACES[who] : who ?? '');
 
-/** As {@link author}, behind what was done: `by Anna`, `on this page`. */
+/** As {@link author}, behind what was done: `by Anna`, `on the page`. */
 export const by = (who) => (Object.hasOwn(PLACES, who) ? PLACES[who] : `by ${who}`);
 
 /** A fact: `doorway at 5.9,3.5 closed: yes`. */

@@ -4,9 +4,8 @@ import { button, byId, el } from './dom.js';
 import { drawing, stopDrawing } from './draw.js';
 import { distances } from './measure.js';
 import { model } from './model.js';
-import { Snapper } from './snap.js';
+import { REACH_PX, Snapper } from './snap.js';
 
-const REACH_PX = 10;
 const HOW = 'Press two points or more, or drag from one to the other; Enter takes the middle of the map. Escape ends it.';
 
 let tool = null;
@@ -21,12 +20,7 @@ class Measure {
     this.line = el('p', { class: 'measured', id: 'measured' }, this.said, this.back);
   }
 
-  /** The map's point that is meant by one of the screen: one that is measured from already, else where drawing would snap. */
-  meant(at, event) {
-    const point = this.camera.toMap(at);
-    if (event?.altKey) return point.map((metres) => Number(metres.toFixed(3)));
-    return this.snapper.at(point, REACH_PX / this.camera.scale, 1 / this.camera.scale);
-  }
+  meant(at, event) { return this.snapper.meant(this.camera, at, event); }
 
   near(at, event) {
     const reach = event.pointerType === 'touch' ? 2 * REACH_PX : REACH_PX;

@@ -2,6 +2,9 @@
 
 import { Buckets, distanceTo } from './places.js';
 
+/** So near to a corner or an edge, or to what is drawn already, a pointer means it. */
+export const REACH_PX = 10;
+
 /** What points snap to on one map: walls, areas, doorways and named doors. */
 export class Snapper {
   constructor(map) {
@@ -19,6 +22,12 @@ export class Snapper {
     const [ax, ay, bx, by] = side;
     this.buckets.add([Math.min(ax, bx), Math.min(ay, by), Math.max(ax, bx), Math.max(ay, by)], this.sides.length);
     this.sides.push(side);
+  }
+
+  /** The map's point that is meant by one of the screen: as it is, to a millimetre, while Alt is held. */
+  meant(camera, at, event) {
+    const point = camera.toMap(at);
+    return event?.altKey ? point.map(rounded) : this.at(point, REACH_PX / camera.scale, 1 / camera.scale);
   }
 
   /** The point in place of one of the map. `reach` is how far it may be moved, `pixel` how large a pixel is, metres. */

@@ -76,6 +76,11 @@ fn extension(path: &Path) -> String {
 }
 
 fn map_text(path: &Path) -> Result<String, MapErrors> {
+    // a pipe or a device may never end
+    if path.exists() && !path.is_file() {
+        let message = format!("the map `{}` is no file", path.display());
+        return Err(Problem::of_file(Code::Unreadable, message).into());
+    }
     let unreadable = |error| {
         let message = format!("the map `{}` cannot be read: {error}", path.display());
         Problem::of_file(Code::Unreadable, message)
@@ -86,10 +91,6 @@ fn map_text(path: &Path) -> Result<String, MapErrors> {
 fn read(path: &Path, settings: &MapSettings) -> Result<(World, MapReport), MapErrors> {
     settings.check()?;
     let name = path.display().to_string();
-    // a pipe or a device may never end
-    if path.exists() && !path.is_file() {
-        return Err(Problem::of_file(Code::Unreadable, format!("the map `{name}` is no file")).into());
-    }
     let (mut world, report) = match extension(path).as_str() {
         "toml" => {
             let (world, notes) = toml_map::read_toml_map(&name, &map_text(path)?)?;

@@ -122,8 +122,10 @@ impl State {
 #[derive(Default)]
 struct About {
     revises: bool,
-    /// Rooms have even numbers, doors odd ones. A revision comes with what it leads to: of the same objects it may say something else.
-    of: BTreeSet<(usize, Option<String>)>,
+    /// Rooms have even numbers, doors odd ones.
+    of: BTreeSet<usize>,
+    /// What a revision leads to: of the same objects it may say something else.
+    to: BTreeMap<(usize, &'static str), Option<Value>>,
 }
 
 /// What each rule does, by its name.
@@ -137,7 +139,7 @@ fn about(graph: &SiteGraph, state: &State) -> BTreeMap<String, About> {
     let mut note = |rules: [Option<i64>; 3], number: usize| {
         for name in rules.into_iter().flatten().filter_map(|rule| names.get(&rule)) {
             if let Some(about) = about.get_mut(name).filter(|about| !about.revises) {
-                about.of.insert((number, None));
+                about.of.insert(number);
             }
         }
     };
@@ -153,9 +155,10 @@ fn about(graph: &SiteGraph, state: &State) -> BTreeMap<String, About> {
         for property in ["hardness", "action", "passable"] {
             for (rule, rows) in state.knowledge.revised(rules, class, property) {
                 let values = state.knowledge.values_at(class, &rows, property);
-                let to = |value: Option<Value>| Some(format!("{property} {value:?}"));
-                let of = rows.iter().map(|row| 2 * *row as usize + place).zip(values.into_iter().map(to));
-                about.entry(rule.name().to_owned()).or_default().of.extend(of);
+                let about = about.entry(rule.name().to_owned()).or_default();
+                let numbers = rows.iter().map(|row| 2 * *row as usize + place);
+                about.of.extend(numbers.clone());
+                about.to.extend(numbers.map(|number| (number, property)).zip(values));
             }
         }
     }
@@ -164,12 +167,12 @@ fn about(graph: &SiteGraph, state: &State) -> BTreeMap<String, About> {
 
 fn decides([old, new]: [BTreeMap<String, About>; 2], is_cut_anew: bool) -> Vec<Decides> {
     let names = old.keys().chain(new.keys().filter(|name| !old.contains_key(*name)));
-    let objects = |about: &About| about.of.iter().map(|(number, _)| number).collect::<BTreeSet<_>>().len();
+    let objects = |about: &About| about.of.len();
     let of = |rule: &String| {
         let (old, new) = (old.get(rule), new.get(rule));
         let is_same = match (old, new) {
             (Some(old), Some(new)) if is_cut_anew => objects(old) == objects(new),
-            (Some(old), Some(new)) => old.of == new.of,
+            (Some(old), Some(new)) => old.of == new.of && old.to == new.to,
             _ => false,
         };
         (!is_same).then(|| Decides {

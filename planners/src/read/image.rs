@@ -37,9 +37,7 @@ impl Image {
             [] => Pixel { colour: 0.0, alpha: None },
         })
     }
-}
 
-impl Image {
     /// As a PNG in grey whose longer side has at most so many pixels: of those that become one the darkest counts, so that walls stay.
     pub(crate) fn png(&self, most: usize) -> Result<Vec<u8>, ImageError> {
         let step = self.columns.max(self.rows).div_ceil(most.max(1));

@@ -469,7 +469,10 @@ fn on_the_clinic_reasons_are_in_the_buildings_words() {
     let there = site.adit("why", &["dock", "ward 12", "--at", "corridor 56"]).expecting(0).stdout;
     assert_eq!(there.lines().collect::<Vec<_>>(), lines[1..]);
     let easy = site.adit("why", &["dock", "ward 12", "--at", "ward 12"]).expecting(0).stdout;
-    assert_eq!(easy, "From dock to ward 12 walk is done through ward 12, and nothing is easier.\n");
+    assert_eq!(
+        easy,
+        "From dock to ward 12, what the robot does through ward 12 is the easiest there is: walk.\n"
+    );
 }
 
 #[test]

@@ -267,6 +267,12 @@ async fn what_was_scanned_lies_beneath_the_map() {
     let service = Service::start(&site);
     let (_, map) = service.ask("GET", "/api/map", None);
     assert_eq!(map["scan"], serde_json::json!([0.0, 0.0, 12.0, 8.0]));
+    let drawn = TestSite::example("paper").built();
+    let (status, refused) = Service::start(&drawn).ask("GET", "/api/scan", None);
+    assert_eq!(
+        (status, &refused["error"]["message"]),
+        (404, &"the map is drawn: nothing was scanned".into())
+    );
     let browser = Browser::open(&service.page("#map"), Screen::Desktop).await;
     let painted = "document.getElementById('canvas').dataset.painted === document.getElementById('canvas').dataset.view";
     // a pixel within a wall is black where it was scanned, and as black as walls are painted where it was not

@@ -30,9 +30,9 @@ pub fn sentences(answer: &WhyWay, at: Option<&Meant>, is_passed: bool) -> Vec<St
     let place = at.map_or_else(|| "all along".to_owned(), Meant::words);
     let easiest = answer.easiest.as_ref().map_or_else(
         || "nothing is easier there".to_owned(),
-        |easiest| format!("{} is done {place}, and nothing is easier", easiest.to_lowercase()),
+        |easiest| format!("what the robot does {place} is the easiest there is: {}", easiest.to_lowercase()),
     );
-    vec![format!("From {} to {} {easiest}.", answer.start, answer.goal)]
+    vec![format!("From {} to {}, {easiest}.", answer.start, answer.goal)]
 }
 
 fn paragraph(stretch: &Stretch, robot: &str) -> String {
