@@ -75,12 +75,17 @@ fn extension(path: &Path) -> String {
     path.extension().and_then(|extension| extension.to_str()).unwrap_or_default().to_lowercase()
 }
 
-fn map_text(path: &Path) -> Result<String, MapErrors> {
-    // a pipe or a device may never end
+/// A pipe or a device may never end, and a folder is of no format.
+fn must_be_a_file(path: &Path) -> Result<(), MapErrors> {
     if path.exists() && !path.is_file() {
         let message = format!("the map `{}` is no file", path.display());
         return Err(Problem::of_file(Code::Unreadable, message).into());
     }
+    Ok(())
+}
+
+fn map_text(path: &Path) -> Result<String, MapErrors> {
+    must_be_a_file(path)?;
     let unreadable = |error| {
         let message = format!("the map `{}` cannot be read: {error}", path.display());
         Problem::of_file(Code::Unreadable, message)
@@ -101,6 +106,7 @@ fn read(path: &Path, settings: &MapSettings) -> Result<(World, MapReport), MapEr
             ros_map::read_ros_map(&name, &map_text(path)?, folder, settings)?
         }
         _ => {
+            must_be_a_file(path)?;
             let message = format!("the map `{name}` is of no known format");
             let help = "known: .toml (vector map), .yaml and .yml (ROS map with its image, or a lane graph), .json, .geojson and .tmap2 (lane graphs)";
             return Err(Problem::of_file(Code::UnknownFormat, message).with_help(help).into());
