@@ -1,8 +1,10 @@
 //! Missions of robots on floor plans: the tables `missions` and `journal`.
 
 mod decision;
+mod replay;
 
 pub use decision::{Decision, Happened, decision, events, numbers, worlds};
+pub use replay::{Kept, list, replay};
 
 use sqlx::SqliteConnection;
 

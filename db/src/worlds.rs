@@ -18,11 +18,12 @@ pub(crate) async fn are_kept(connection: &mut SqliteConnection) -> Result<bool> 
 }
 
 /// The tables of worlds, where they are kept.
-const TABLES: [&str; 22] = [
+const TABLES: [&str; 23] = [
     "cell_objects",
     "cells",
     "clearances",
     "edges",
+    "endings",
     "floor_adits",
     "floor_corners",
     "floor_doorways",

@@ -14,7 +14,7 @@ pub mod missions;
 pub mod reading;
 pub mod reporting;
 pub mod routed;
-mod story;
+pub(crate) mod story;
 mod stretches;
 pub mod together;
 pub mod told;

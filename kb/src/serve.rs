@@ -23,6 +23,7 @@ mod share;
 mod shared;
 pub(crate) mod token;
 mod waiting;
+mod whereabouts;
 
 use std::sync::Arc;
 use std::sync::mpsc::sync_channel;

@@ -14,6 +14,7 @@ use std::collections::BTreeSet;
 
 use cells::Cells;
 pub use effect::{Clock, Effect};
+pub use telling::Whereabout;
 
 use crate::given::Given;
 use crate::site::{Area, Fleet, Route, Vehicle};
@@ -52,6 +53,8 @@ pub struct Driver {
     /// Errors on which something was done.
     acted: BTreeSet<String>,
     cells: Cells,
+    /// What it does, in words.
+    doing: String,
     /// What is wrong with what it says, and was said in the log.
     said: BTreeSet<About>,
     /// The zones that it was told, and what could not be told.
@@ -89,6 +92,7 @@ impl Driver {
     pub fn new(row: Vehicle) -> Self {
         Self {
             cells: Cells::new(row.written.clone()),
+            doing: String::new(),
             row,
             link: None,
             speaks: None,

@@ -2,6 +2,7 @@
 
 mod asked;
 mod clock;
+mod seen;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -14,7 +15,7 @@ use serde_json::{Value, json};
 use tokio::sync::mpsc::{UnboundedReceiver, UnboundedSender};
 use tokio::task::JoinHandle;
 
-use crate::driver::{Driver, Effect, World};
+use crate::driver::{Clock, Driver, Effect, World};
 use crate::heard::Heard;
 use crate::site::{Area, Fleet as Tables, Site, VEHICLES};
 use crate::way::{Bridge, Margins};
@@ -44,21 +45,27 @@ pub struct Settings {
     pub margins: Margins,
 }
 
-/// The vehicles, and what connects them.
-pub struct Fleet {
-    site: Site,
-    client: AsyncClient,
+/// What all vehicles have to do with.
+struct Known {
     settings: Settings,
-    heard: UnboundedSender<Heard>,
     tables: Tables,
     bridges: Vec<Bridge>,
     bounds: Option<[f64; 4]>,
     areas: Vec<Area>,
+}
+
+/// The vehicles, and what connects them.
+pub struct Fleet {
+    site: Site,
+    client: AsyncClient,
+    heard: UnboundedSender<Heard>,
+    known: Known,
     drivers: BTreeMap<String, Driver>,
     follows: BTreeMap<String, asked::Following>,
     /// Who was named that is not in the table, and what was said of messages of others.
     strangers: BTreeSet<String>,
     writers: BTreeMap<String, JoinHandle<()>>,
+    seen: seen::Seen,
     /// How many edits were answered.
     answers: Arc<AtomicU64>,
     is_up: bool,
@@ -68,21 +75,39 @@ pub struct Fleet {
     clock: clock::Watch,
 }
 
+impl Known {
+    /// The same at one moment, as a vehicle thinks of it.
+    fn world<'k>(&'k self, clock: &'k Clock) -> World<'k> {
+        World {
+            fleet: &self.tables,
+            margins: &self.settings.margins,
+            bridges: &self.bridges,
+            areas: &self.areas,
+            bounds: self.bounds,
+            map: &self.settings.map,
+            clock,
+        }
+    }
+}
+
 impl Fleet {
     pub fn new(site: Site, client: AsyncClient, settings: Settings, heard: UnboundedSender<Heard>) -> Self {
         Self {
             site,
             client,
-            settings,
             heard,
-            tables: Tables::default(),
-            bridges: Vec::new(),
-            bounds: None,
-            areas: Vec::new(),
+            known: Known {
+                settings,
+                tables: Tables::default(),
+                bridges: Vec::new(),
+                bounds: None,
+                areas: Vec::new(),
+            },
             drivers: BTreeMap::new(),
             follows: BTreeMap::new(),
             strangers: BTreeSet::new(),
             writers: BTreeMap::new(),
+            seen: seen::Seen::default(),
             answers: Arc::default(),
             is_up: false,
             is_read: false,
@@ -106,6 +131,7 @@ impl Fleet {
     /// What is written of the vehicles is not true for long now.
     async fn leave(&mut self) {
         self.follows.clear();
+        self.seen.leave(&self.site).await;
         for (_, writer) in std::mem::take(&mut self.writers) {
             let _ = writer.await;
         }
@@ -178,9 +204,9 @@ impl Fleet {
                     self.trouble = Some(why);
                 }
             }
-            Heard::Map(bridges, bounds) => (self.bridges, self.bounds) = (bridges, bounds),
+            Heard::Map(bridges, bounds) => (self.known.bridges, self.known.bounds) = (bridges, bounds),
             Heard::Areas(areas) => {
-                self.areas = areas;
+                self.known.areas = areas;
                 return About::All;
             }
             Heard::Floor => {
@@ -220,7 +246,10 @@ impl Fleet {
                 }
             }
             Heard::Said(words) => say(&words),
-            Heard::Tick => return About::All,
+            Heard::Tick => {
+                self.show();
+                return About::All;
+            }
         }
         About::Nobody
     }
@@ -276,8 +305,8 @@ impl Fleet {
     }
 
     fn read(&mut self, tables: Tables) {
-        (self.tables, self.is_read) = (tables, true);
-        let rows = self.tables.vehicles.clone();
+        (self.known.tables, self.is_read) = (tables, true);
+        let rows = self.known.tables.vehicles.clone();
         let names: BTreeSet<String> = rows.iter().map(|row| row.name.clone()).collect();
         self.drivers.retain(|name, _| names.contains(name));
         self.follows.retain(|name, _| names.contains(name));
@@ -291,25 +320,26 @@ impl Fleet {
                 // what it said before is kept by the broker
                 let again = ["connection", "factsheet"];
                 for topic in again {
-                    let all = format!("{}/+/+/+/{topic}", self.settings.interface);
+                    let all = format!("{}/+/+/+/{topic}", self.known.settings.interface);
                     let _ = self.client.try_subscribe(all, QoS::AtLeastOnce);
                 }
             }
         }
     }
 
+    /// Shows people where the vehicles are.
+    fn show(&mut self) {
+        let clock = self.clock.now();
+        let world = self.known.world(&clock);
+        let vehicles = self.drivers.iter();
+        let vehicles = vehicles.filter_map(|(name, driver)| Some((name.clone(), driver.whereabout(&world)?)));
+        self.seen.say(&self.site, vehicles);
+    }
+
     fn think(&mut self, name: &str) {
         let Some(driver) = self.drivers.get_mut(name) else { return };
         let clock = self.clock.now();
-        let world = World {
-            fleet: &self.tables,
-            margins: &self.settings.margins,
-            bridges: &self.bridges,
-            areas: &self.areas,
-            bounds: self.bounds,
-            map: &self.settings.map,
-            clock: &clock,
-        };
+        let world = self.known.world(&clock);
         for effect in driver.think(&world) {
             self.does(name, effect);
         }
@@ -322,7 +352,7 @@ impl Fleet {
             Effect::Send { to, topic, message } => {
                 let topic = format!(
                     "{}/{}/{}/{}/{topic}",
-                    self.settings.interface,
+                    self.known.settings.interface,
                     to.version.of_topic(),
                     to.manufacturer,
                     to.serial

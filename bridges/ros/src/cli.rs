@@ -26,6 +26,9 @@ pub struct Cli {
     /// Whose routes; a site with several robots needs it
     #[arg(long)]
     robot: Option<String>,
+    /// What people call the robot; unless said, its namespace, or else whose routes it drives, or `robot`
+    #[arg(long)]
+    name: Option<String>,
     /// The map's frame
     #[arg(long, default_value = "map")]
     frame: String,
@@ -110,7 +113,10 @@ fn serve(cli: Cli) -> anyhow::Result<()> {
             );
         }
         let frames = Arc::new(Frames::new(&cli.frame));
+        let namespace = Some(cli.namespace.trim_matches('/')).filter(|namespace| !namespace.is_empty());
+        let name = cli.name.or_else(|| namespace.map(str::to_owned)).or_else(|| cli.robot.clone());
         let settings = planner::Settings {
+            name: name.unwrap_or_else(|| "robot".to_owned()),
             robot: cli.robot,
             planner: cli.planner,
             base: cli.base,

@@ -20,3 +20,4 @@ mod presence;
 mod shown;
 mod told;
 mod track;
+mod whereabouts;

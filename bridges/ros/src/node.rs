@@ -22,7 +22,7 @@ use crate::msgs::{
 };
 use crate::planner::Planner;
 use crate::presence::Presence;
-use crate::{body, keepout, plans, told, track};
+use crate::{body, keepout, plans, told, track, whereabouts};
 
 /// The settings of the node.
 pub struct Settings {
@@ -274,6 +274,7 @@ impl Ros {
         masks: keepout::Settings,
     ) {
         tokio::spawn(body::follow(Arc::clone(planner), sizes, action, footprint));
+        tokio::spawn(whereabouts::follow(Arc::clone(planner)));
         let frames: Arc<Frames> = Arc::clone(&planner.frames);
         tokio::spawn(keepout::follow(planner.site.clone(), frames, masks, said.masks));
     }

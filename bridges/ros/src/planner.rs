@@ -21,6 +21,8 @@ const FARTHEST: f64 = 100.0;
 
 /// The settings of plans.
 pub struct Settings {
+    /// What people call the robot.
+    pub name: String,
     /// Whose routes; of a site with several robots it must be said.
     pub robot: Option<String>,
     /// The planner of Nav2 that is ours; another one's name is a robot's.

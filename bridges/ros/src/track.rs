@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use adit_site::{Followed, Route, Trouble, say};
+use adit_site::{Followed, Route, Trouble, query, say};
 use serde_json::json;
 use tokio::sync::mpsc::{UnboundedReceiver, unbounded_channel};
 
@@ -43,7 +43,11 @@ pub async fn track(planner: Arc<Planner>, goal: RouteGoal, says: Says) -> Ended<
         // an end at which no robot can be is refused in the words of a plan
         planner.plan(&question).await?;
         let (say, hears) = unbounded_channel();
-        let follower = follow(Arc::clone(&planner), format!("/api/route/follow?{}", question.query()), say);
+        let follower = follow(
+            Arc::clone(&planner),
+            format!("/api/route/follow?{}&{}", question.query(), query(&[("name", &planner.settings.name)])),
+            say,
+        );
         let _follower = Kept(tokio::spawn(follower));
         Tracked { planner: &planner, question, says, route: None, at: 0, follower: None }.run(hears).await
     };

@@ -6,7 +6,7 @@ use adit_planners::geometry::{Point, Rect};
 use super::frame::{At, Block, Frame};
 use super::labels::{Face, Labels};
 use super::palette::{BRIDGE, CLOSED, GREY, INK, ROUTE};
-use super::sheet::line;
+use super::sheet::{line, metres};
 use super::svg::{self, Svg};
 use super::{MARGIN, page, text};
 
@@ -63,6 +63,7 @@ pub fn render_floor(
     page(title, (right, below + BELOW), |page| {
         page.words((MARGIN, MARGIN + 14.0), 18.0, INK, &text::fit(title, 18.0, right - 2.0 * MARGIN));
         page.append(&svg);
+        metres(page, &frame);
         page.words((MARGIN, below + 22.0), 13.0, GREY, LEGEND);
     })
 }

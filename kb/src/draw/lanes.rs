@@ -8,7 +8,7 @@ use adit_planners::lanes::{LaneGraph, Level, Node};
 use super::frame::{At, Block, Frame};
 use super::labels::{Face, Labels};
 use super::palette::{BRIDGE, CLOSED, GREY, INK, ROUTE};
-use super::sheet::line;
+use super::sheet::{line, metres};
 use super::svg::Svg;
 use super::{MARGIN, page, text};
 
@@ -51,6 +51,10 @@ pub fn render_lanes(
         panel.route(&mut svg, route, &mut labels);
         panel.nodes(&mut svg, &mut labels);
         svg.append(&labels.finish());
+        // on several levels metres lie at several places
+        if graph.levels.len() == 1 {
+            metres(&mut svg, &frame);
+        }
         left += frame.map.w + 2.0 * MARGIN;
         below = below.max(frame.map.y + frame.map.h);
     }

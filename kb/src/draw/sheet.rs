@@ -155,6 +155,13 @@ pub(super) fn line(svg: &mut Svg, from: At, to: At, stroke: &str, width: f64, da
         .end();
 }
 
+/// For whoever draws over the picture: an empty group whose transform leads from metres to where they lie in it.
+pub(super) fn metres(svg: &mut Svg, frame: &Frame) {
+    let (scale, x, y) = (frame.scale, frame.x(0.0), frame.y(0.0));
+    let transform = format!("matrix({scale} 0 0 {} {x} {y})", -scale);
+    svg.element("g").attr("id", "metres").attr("transform", &transform).end();
+}
+
 /// A small cross: nobody passes.
 pub(super) fn cross(svg: &mut Svg, (x, y): At, reach: f64) {
     let mut path = String::new();

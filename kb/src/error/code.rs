@@ -172,6 +172,9 @@ codes! {
     /// The tables were edited meanwhile; try again.
     LiveStale = "live/stale", INTERNAL_SERVER_ERROR;
 
+    /// No mission of this number is kept.
+    MissionUnknown = "mission/unknown", NOT_FOUND;
+
     /// An answer cannot be written as JSON.
     OutputJson = "output/json", BAD_REQUEST;
 
@@ -482,6 +485,9 @@ codes! {
     TuningUnknown = "tuning/unknown", NOT_FOUND;
     /// The words after `adit tuning` mean nothing; `adit tuning --help` shows what they may be.
     TuningUsage = "tuning/usage", BAD_REQUEST;
+
+    /// Nobody said where a robot of this name is.
+    WhereaboutsUnknown = "whereabouts/unknown", NOT_FOUND;
 
     /// The database keeps no mission of this number.
     WhyNoMission = "why/no-mission", BAD_REQUEST;

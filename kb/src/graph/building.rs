@@ -231,9 +231,27 @@ impl Building {
 
     /// The space that holds a point.
     pub fn space_at(&self, at: Point) -> Option<&Space> {
-        let holds =
-            |space: &&Space| self.sides_of(space.space).is_some_and(|sides| polygon::encloses(sides, at));
-        self.spaces.iter().find(holds)
+        self.spaces_at(&[at])[0]
+    }
+
+    /// The space that holds each of some points.
+    pub fn spaces_at(&self, points: &[Point]) -> Vec<Option<&Space>> {
+        let mut found = vec![None; points.len()];
+        let mut missing: Vec<usize> = (0..points.len()).collect();
+        for space in &self.spaces {
+            if missing.is_empty() {
+                break;
+            }
+            let Some(sides) = self.sides_of(space.space) else { continue };
+            missing.retain(|&index| {
+                let holds = polygon::encloses(sides.iter().copied(), points[index]);
+                if holds {
+                    found[index] = Some(space);
+                }
+                !holds
+            });
+        }
+        found
     }
 
     /// The sides of a space's outline.

@@ -36,7 +36,8 @@ pub fn told(happened: &[Happened]) -> Vec<Chapter> {
     chapters
 }
 
-fn sentence(event: &str, detail: &Value) -> Option<String> {
+/// What happened, as far as people want to know it.
+pub fn sentence(event: &str, detail: &Value) -> Option<String> {
     let metres = |of: &str| detail[of].as_f64().map(number);
     match event {
         "doorways closed" => {

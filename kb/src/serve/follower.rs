@@ -5,7 +5,7 @@ mod words;
 
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use adit_planners::geometry::Point;
 use tokio::sync::broadcast::error::RecvError;
@@ -29,6 +29,9 @@ const BYTES: usize = 16;
 /// Changes that one word about a route names; of more the newest.
 const NAMED: usize = 20;
 
+/// Words about a route that are remembered, for people who look on.
+const TOLD: usize = 5;
+
 /// How long the word about a change may be behind the site that shows it.
 const BEHIND: Duration = Duration::from_millis(200);
 
@@ -41,6 +44,25 @@ pub struct Followers(Mutex<BTreeMap<String, Known>>);
 struct Known {
     question: Arc<Question>,
     held: Arc<watch::Sender<Arc<Held>>>,
+    since: Instant,
+    /// When it said last where it is; none where it only asked for its way.
+    moved: Option<(Instant, Point)>,
+    told: VecDeque<(Instant, String)>,
+}
+
+/// A follower, as others see it.
+pub struct Following {
+    /// What people call it.
+    pub name: Option<String>,
+    pub answer: Arc<Answer>,
+    /// Since when it follows its way.
+    pub since: Instant,
+    /// When it said last from where.
+    pub moved: Instant,
+    /// From where its way leads.
+    pub at: Option<Point>,
+    /// What it was told last, the newest last.
+    pub told: Vec<(Instant, String)>,
 }
 
 /// A stream's side of it. Its name goes with it.
@@ -74,6 +96,7 @@ impl Followers {
             goals: known.question.goals.clone(),
             robot: known.question.robot.clone(),
             within: known.question.within,
+            name: None,
             errand: Errand::default(),
         };
         let answer = question.answer(view)?;
@@ -85,7 +108,27 @@ impl Followers {
         let held = Held::of(answer, view);
         let answer = Arc::clone(&held.answer);
         known.held.send_replace(Arc::new(held));
+        if let Some(known) = self.all().get_mut(name) {
+            known.moved = Some((Instant::now(), to));
+        }
         Ok(answer)
+    }
+
+    /// All of them, as they now are.
+    pub fn listed(&self) -> Vec<Following> {
+        let following = |known: &Known| {
+            let answer = Arc::clone(&known.held.borrow().answer);
+            let start = answer.waypoints.first().map(|point| Point::new(point.x, point.y));
+            Following {
+                name: known.question.name.clone(),
+                at: known.moved.map(|(_, at)| at).or(start),
+                moved: known.moved.map_or(known.since, |(when, _)| when),
+                since: known.since,
+                told: known.told.iter().cloned().collect(),
+                answer,
+            }
+        };
+        self.all().values().map(following).collect()
     }
 }
 
@@ -104,7 +147,9 @@ impl Follower {
         let held = Arc::new(Held::of(answer, view));
         let name = token::random::<BYTES>()?;
         let (sender, moved) = watch::channel(Arc::clone(&held));
-        let known = Known { question: Arc::clone(&question), held: Arc::new(sender) };
+        let (since, told) = (Instant::now(), VecDeque::new());
+        let question_of = Arc::clone(&question);
+        let known = Known { question: question_of, held: Arc::new(sender), since, moved: None, told };
         shared.followers.all().insert(name.clone(), known);
         let follower = Self {
             shared: Arc::clone(shared),
@@ -178,6 +223,12 @@ impl Follower {
 
     fn word(&self, words: String, cost_before: Option<f64>, changes: Vec<Changed>) -> Arc<Event> {
         let (follower, route) = (self.name.clone(), (*self.held.answer).clone());
+        if let Some(known) = self.shared.followers.all().get_mut(&self.name) {
+            if known.told.len() == TOLD {
+                known.told.pop_front();
+            }
+            known.told.push_back((Instant::now(), words.clone()));
+        }
         Arc::new(Event::new("route", &Followed { follower, words, cost_before, changes, route }))
     }
 

@@ -10,6 +10,7 @@ mod floor;
 mod follow;
 mod history;
 mod map;
+mod missions;
 pub mod pass;
 mod portions;
 mod queries;
@@ -20,6 +21,7 @@ mod sql;
 mod stream;
 mod tables;
 mod trial;
+mod whereabouts;
 mod why;
 
 use std::collections::BTreeSet;
@@ -67,6 +69,10 @@ fn described() -> (Router<Arc<Shared>>, OpenApi) {
         .routes(routes!(route::route))
         .routes(routes!(follow::follow))
         .routes(routes!(follow::moved))
+        .routes(routes!(whereabouts::list, whereabouts::hear))
+        .routes(routes!(whereabouts::forget))
+        .routes(routes!(missions::list))
+        .routes(routes!(missions::journal))
         .routes(routes!(tables::tables))
         .routes(routes!(tables::file))
         .routes(routes!(tables::tunings))

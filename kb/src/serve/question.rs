@@ -21,12 +21,27 @@ pub struct Question {
     pub goals: Vec<String>,
     pub robot: Option<String>,
     pub within: Option<f64>,
+    /// What people call the robot that follows the route.
+    pub name: Option<String>,
     pub errand: Errand,
+}
+
+/// The longest word about a robot.
+const SHORT: usize = 200;
+
+/// What people can read at a glance: not empty, on one line, not without end. `what` is how it is called.
+pub fn short(what: &str, text: &str) -> Answered<String> {
+    let text = text.trim();
+    if text.is_empty() || text.chars().any(char::is_control) || text.chars().count() > SHORT {
+        let message = format!("`{what}` of a robot has 1 to {SHORT} characters, and stands on one line");
+        return Err(Fault::new(Code::ServiceQuestion, message));
+    }
+    Ok(text.to_owned())
 }
 
 impl Question {
     pub fn read(query: &str) -> Answered<Self> {
-        let (mut start, mut goals, mut robot, mut within) = (None, Vec::new(), None, None);
+        let (mut start, mut goals, mut robot, mut within, mut called) = (None, Vec::new(), None, None, None);
         let mut errand = Errand::default();
         let mut said = BTreeSet::new();
         for (name, value) in form_urlencoded::parse(query.as_bytes()) {
@@ -52,6 +67,7 @@ impl Question {
                     })?;
                     within = Some(metres);
                 }
+                "name" => called = Some(short("name", &value)?),
                 "avoid" => errand.avoid.push(value.into_owned()),
                 "load" => errand.load = Some(value.into_owned()),
                 // a + that nobody wrote as %2B has become a blank, and in an instant there is no other
@@ -74,7 +90,7 @@ impl Question {
         }
         match start {
             Some(start) if (1..=GOALS).contains(&goals.len()) => {
-                Ok(Self { start, goals, robot, within, errand })
+                Ok(Self { start, goals, robot, within, name: called, errand })
             }
             _ => {
                 let message = format!("a route needs `start`, and `goal` once, or up to {GOALS} times");

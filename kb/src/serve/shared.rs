@@ -24,6 +24,7 @@ use super::settings::Settings;
 use super::share::{Asker, Held, Place, Places, Spent, Stock};
 use super::token::Tokens;
 use super::waiting::Waiting;
+use super::whereabouts::Whereabouts;
 use crate::error::Result;
 use crate::error::problem::Problem;
 use crate::live::View;
@@ -64,6 +65,7 @@ pub struct Shared {
     /// Places of routes that are found anew for whoever follows them.
     renewals: Arc<Places>,
     pub followers: Followers,
+    pub whereabouts: Whereabouts,
     jobs: SyncSender<Job>,
     shown: (Mutex<u64>, Condvar),
     readers: Readers,
@@ -142,6 +144,7 @@ impl Shared {
             at_desk: places((1, 1)),
             renewals: places((cores + 1, cores)),
             followers: Followers::default(),
+            whereabouts: Whereabouts::default(),
             settings,
             jobs,
         }

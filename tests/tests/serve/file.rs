@@ -209,3 +209,42 @@ fn an_edit_mends_what_another_program_wrote_and_rules_cannot_take() {
     }
     assert_eq!(service.ask("POST", "/api/edits", Some(&hardness("STAND", 1.5))).0, 200);
 }
+
+#[test]
+fn missions_that_were_kept_are_looked_at_again_with_what_was_met_and_which_rule_decided() {
+    let site = TestSite::example("clinic").built();
+    site.adit("simulate", &["dock", "ward 12", "--keep"]).expect_status(0);
+    site.adit("simulate", &["--missions", "1", "--seed", "5", "--keep"]).expect_status(0);
+    let service = Service::start(&site);
+    let (_, answer) = service.ask("GET", "/api/missions", None);
+    let numbers: Vec<&serde_json::Value> =
+        answer["missions"].as_array().unwrap().iter().map(|mission| &mission["mission"]).collect();
+    assert_eq!(numbers, [2, 1], "the newest first");
+    let (_, one) = service.ask("GET", "/api/missions?limit=1", None);
+    assert_eq!(one["missions"].as_array().unwrap().len(), 1);
+    let (_, mission) = service.ask("GET", "/api/missions/1", None);
+    assert_eq!((&mission["spaces"], &mission["ending"]), (&json!(["dock", "ward 12"]), &json!("arrived")));
+    let journal = mission["journal"].as_array().unwrap();
+    let kept = site.sqlite3("SELECT count(*) FROM journal WHERE mission = 1").join("");
+    assert_eq!(journal.len().to_string(), kept);
+    assert_eq!(journal[0]["pose"], json!([2.0, 2.0, 0.0]));
+    let shapes = journal.iter().filter_map(|entry| entry["shape"].as_str());
+    assert!(
+        shapes.clone().any(|shape| shape == "SQUAT"),
+        "beneath the pipe: {:?}",
+        shapes.collect::<Vec<_>>()
+    );
+    assert!(journal.iter().any(|entry| entry["way"].as_array().is_some_and(|way| way.len() > 2)));
+    assert!(
+        journal
+            .iter()
+            .any(|entry| entry["rule"].as_str().is_some_and(|rule| rule.contains("execution.rhai:")))
+    );
+    let (status, refused) = service.ask("GET", "/api/missions/9", None);
+    assert_eq!((status, &refused["error"]["code"]), (404, &json!("mission/unknown")), "{refused}");
+    // what a mission may end as is for reading, and nobody tunes it
+    let (_, tables) = service.ask("GET", "/api/tables", None);
+    let names: Vec<&str> =
+        tables["tables"].as_array().unwrap().iter().filter_map(|table| table["table"].as_str()).collect();
+    assert!(names.contains(&"robots") && !names.contains(&"endings"), "{names:?}");
+}

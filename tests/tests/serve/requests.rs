@@ -9,5 +9,6 @@ pub mod follow;
 mod hostile;
 mod roles;
 mod sql;
+mod whereabouts;
 
 use crate::suite::{hardness, served, within_a_second};

@@ -2,14 +2,55 @@
 
 use std::collections::BTreeSet;
 
+use serde::Serialize;
 use serde_json::Value;
 
-use super::{About, Driver, Effect, Now, words};
+use super::{About, Driver, Effect, Now, World, held, words};
+use crate::wire::Link;
 
 /// What blocks a vehicle is so far ahead on its way where nobody knows how large it is, metres.
 const REACH: f64 = 0.5;
 
+/// Where a vehicle is, for people who look on.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Whereabout {
+    name: String,
+    x: f64,
+    y: f64,
+    /// Degrees.
+    heading: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    robot: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    doing: Option<String>,
+}
+
+/// Characters of what it does that people read at a glance; the service takes no more.
+const GLANCE: usize = 200;
+
 impl Driver {
+    /// Where it is; `None` where it does not know, is on another map, or was not heard.
+    pub fn whereabout(&self, world: &World<'_>) -> Option<Whereabout> {
+        let report = self.report.as_ref().filter(|_| self.link.is_none_or(|link| link == Link::Online))?;
+        let at =
+            report.position.as_ref().filter(|at| at.localized && at.x.is_finite() && at.y.is_finite())?;
+        let map = self.map(world);
+        if !(at.map_id.is_empty() || at.map_id == map)
+            || held::off_the_map(report, &map, world.bounds).is_some()
+        {
+            return None;
+        }
+        let doing: String = self.doing.chars().filter(|letter| !letter.is_control()).take(GLANCE).collect();
+        Some(Whereabout {
+            name: self.row.name.clone(),
+            x: at.x,
+            y: at.y,
+            heading: at.theta.to_degrees().rem_euclid(360.0),
+            robot: self.row.robot.clone(),
+            doing: Some(doing).filter(|doing| !doing.trim().is_empty()),
+        })
+    }
+
     /// What errors mean is done once each time that they come.
     pub(super) fn act_on_errors(&mut self, now: &Now<'_, '_>, effects: &mut Vec<Effect>) {
         let Now { report, world, .. } = now;
@@ -43,6 +84,7 @@ impl Driver {
 
     /// Writes into the table what it has columns for, where it is another value than before.
     pub(super) fn tell(&mut self, doing: String, effects: &mut Vec<Effect>) {
+        self.doing.clone_from(&doing);
         let mut values = vec![("doing", Value::from(doing))];
         if let Some(link) = self.link {
             values.push(("connection", Value::from(link.word())));

@@ -95,7 +95,8 @@ async fn follow(site: Site, way: Way, place: Arc<Mutex<Place>>, heard: Unbounded
     let mut told = None;
     loop {
         let at = lock(&place).at;
-        let path = format!("/api/route/follow?{}", question(at, &way.goal, way.robot.as_deref()));
+        let asked = question(at, &way.goal, way.robot.as_deref());
+        let path = format!("/api/route/follow?{asked}&{}", query(&[("name", &way.vehicle)]));
         let ended = site.hear(&path, |event, data| {
             if event != "route" {
                 return;

@@ -30,6 +30,15 @@ fn a_vehicle_drives_to_its_goal_and_its_goal_is_taken_out_of_the_table() {
         let program = FleetProgram::start(&service, &broker);
         let mut cart = Vehicle::start(&broker, version, "cart-1", [2.0, 6.0, 6.0]);
         send(&service, "cart-1", "gate");
+        let seen = within("it is seen on its way", || {
+            let (_, answer) = service.ask("GET", "/api/whereabouts", None);
+            let cart = answer["robots"].as_array()?.iter().find(|robot| robot["name"] == "cart-1")?.clone();
+            let is_on_its_way =
+                cart["x"].as_f64()? > 3.0 && cart["way"]["goal"] == "gate" && cart["doing"] != Value::Null;
+            is_on_its_way.then_some(cart)
+        });
+        assert_eq!((&seen["robot"], &seen["who"]), (&json!("cart"), &json!("http")), "{seen}");
+        assert!(seen["way"]["told"][0]["words"].as_str().unwrap().starts_with("the way costs"), "{seen}");
         cart.arrives("gate");
         let position = &cart.state["agvPosition"];
         let at = [&position["x"], &position["y"]].map(|v| v.as_f64().unwrap().to_string());

@@ -29,6 +29,7 @@ use crate::serve::question::Question;
         ("goal" = String, Query, description = "A place, a room or `x,y`; may stand several times; `to` means the same"),
         ("robot" = Option<String>, Query, description = "Whose route; may be left out where there is one robot"),
         ("within" = Option<f64>, Query, description = "Metres by which a start or goal at which no state fits may be moved, to the nearest point at which one does; the answer's `taken` says where"),
+        ("name" = Option<String>, Query, description = "What people call the robot, as `/api/whereabouts` then does"),
     ),
     responses((status = 200, content_type = "text/event-stream", body = String)))]
 pub async fn follow(

@@ -7,7 +7,8 @@ use axum::response::{IntoResponse, Response};
 
 use super::extract::Site;
 use crate::answer::Answer;
-use crate::serve::fault::Answered;
+use crate::error::Code;
+use crate::serve::fault::{Answered, Fault};
 use crate::serve::question::{Question, checked};
 
 /// The route of least hardness between two places, rooms or points `x,y`; of several goals to the one that costs least.
@@ -31,6 +32,11 @@ use crate::serve::question::{Question, checked};
     responses((status = 200, body = Answer)))]
 pub async fn route(site: Site, RawQuery(query): RawQuery) -> Answered<Response> {
     let question = Question::read(query.as_deref().unwrap_or_default())?;
+    if question.name.is_some() {
+        let message = "a route has no `name`: nobody is told of it again";
+        return Err(Fault::new(Code::ServiceQuestion, message)
+            .helped("ask `/api/route/follow` for one that is followed"));
+    }
     if !question.errand.is_none() {
         let answer = site.on_errand(move |fork| question.answer_on_errand(fork)).await?;
         return checked(answer).map(|answer| Json(answer).into_response());
