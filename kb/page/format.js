@@ -16,7 +16,7 @@ export const cost = (value) => (value === null || value === undefined ? 'none' :
 export const metres = (value) => `${value < 10 ? value.toFixed(1) : value.toFixed(value < 100 ? 1 : 0)} m`;
 
 /** A time as people say it: `4.5 s`, `1 min 20 s`, `2 h 5 min`. */
-function time(seconds) {
+export function time(seconds) {
   if (seconds < 10) return `${Number(seconds.toFixed(1))} s`;
   const whole = Math.round(seconds);
   const and = (rest, unit) => (rest > 0 ? ` ${rest} ${unit}` : '');

@@ -11,6 +11,8 @@ import { moment } from './format.js';
 import { readLaid } from './laid.js';
 import { startHistory } from './history.js';
 import { startMap } from './map.js';
+import { startMarks } from './marks.js';
+import { startMissions } from './missions.js';
 import { model } from './model.js';
 import { banner, complain, where } from './notice.js';
 import { startOutline } from './outline.js';
@@ -18,6 +20,7 @@ import { keepPending } from './pending.js';
 import { startPicture } from './picture.js';
 import { startPreview } from './preview.js';
 import { refresh } from './refresh.js';
+import { startRobots } from './robots.js';
 import { startRoute } from './route.js';
 import { address, onTab, route } from './router.js';
 import { startRules } from './rules.js';
@@ -103,12 +106,14 @@ async function begin() {
     return;
   }
   follow(heard, connection);
+  startRobots();
 }
 
 function start() {
   startSheet();
   startMap(lead);
   startPicture();
+  startMarks();
   startEnds();
   startTables();
   startTunings();
@@ -116,6 +121,7 @@ function start() {
   startRoute();
   startFirm();
   startOutline();
+  startMissions();
   startRules();
   startSql();
   startFacts();

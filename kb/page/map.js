@@ -7,6 +7,7 @@ import { action, number } from './format.js';
 import { Frames } from './frames.js';
 import { Drawn, EASIEST, layerName, ofRobot, roomsWeigh } from './layers.js';
 import { laidAt } from './laid.js';
+import { placeMarks } from './marks.js';
 import { showPoint, showScale } from './measure.js';
 import { measuring, startMeasuring } from './measuring.js';
 import { model } from './model.js';
@@ -41,6 +42,7 @@ function invalidateOver() {
     waiting = false;
     if (!shown || canvas.clientWidth === 0) return;
     paintOver(over, camera, ink, pointed, measuring());
+    placeMarks(camera);
     if (!isFloorDue) return;
     isFloorDue = false;
     const isMore = frames.show(camera, shown, ink.paper, (context, view) => paint(context, view, shown, still, ink, (at) => finder().roomsAt(at)));
@@ -246,6 +248,11 @@ function pointAtNoun(kind, index) {
   pointed = thing.kind === 'wall' ? null : thing;
   redraw();
   return { thing, screen: camera.toScreen(at) };
+}
+
+/** Moves a point into view. */
+export function showAt(at) {
+  if (shown) camera.show(at);
 }
 
 /** Opens the card of a thing of the list, as a click on it would. */

@@ -17,6 +17,9 @@ class Model extends EventTarget {
   /** What people laid over the map, of `/api/areas` */ laid = [];
   /** The answer to "why not that way?" */ whyNot = null;
   /** `/api/firm` of the present route */ firm = null;
+  /** `/api/whereabouts`, each robot with a `key` */ robots = [];
+  /** The key of the robot that is looked at */ lookedAt = null;
+  /** What is seen now of the mission that is looked at again */ replay = null;
   /** The newest generation seen. */ generation = 0;
   /** Where rooms are in `map.rooms`, by their number. */ roomIndex = new Map();
   /** Where doors are in `map.doors`, by their number. */ doorIndex = new Map();

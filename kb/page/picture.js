@@ -22,6 +22,7 @@ async function draw() {
     box.setAttribute('aria-label', there ? `Map with the way from ${start} to ${goal}` : 'Map');
     box.dataset.generation = model.weights.generation;
     box.hidden = false;
+    model.dispatchEvent(new Event('picture'));
   } catch (error) {
     if (mine === asked && error.status !== 0) complain(error);
   }

@@ -23,6 +23,8 @@ mod large;
 mod latency;
 #[path = "page/live.rs"]
 mod live;
+#[path = "page/robots.rs"]
+mod robots;
 #[path = "page/rows.rs"]
 mod rows;
 #[path = "page/rules.rs"]

@@ -1,6 +1,8 @@
 //! All of it without a mouse.
 
-use adit_tests::browser::Browser;
+use adit_tests::TestSite;
+use adit_tests::browser::{Browser, Screen};
+use adit_tests::service::Service;
 
 use crate::at_a_desk;
 
@@ -64,4 +66,27 @@ async fn a_way_is_asked_a_cell_tuned_and_taken_back_by_keys_alone() {
     tab_to(&browser, "e.textContent === 'Take it back'").await;
     press(&browser, ENTER).await;
     browser.says("#saved", "Taken back").await;
+}
+
+/// By the first link of the page, which leads past the map.
+#[tokio::test(flavor = "multi_thread")]
+async fn the_first_number_is_a_few_keys_away() {
+    for screen in [Screen::Desktop, Screen::Phone] {
+        let site = TestSite::example("clinic").built();
+        let service = Service::start(&site);
+        let browser = Browser::open(&service.page(""), screen).await;
+        browser.says("#tables", "SQUAT").await;
+        let mut tabs = 0;
+        while browser.value("document.activeElement.matches('#tables td.number input')").await != true {
+            press(&browser, TAB).await;
+            tabs += 1;
+            assert!(tabs <= 8, "more than 8 Tabs lead to the first number");
+            if browser.value("document.activeElement.id").await == "to-tables" {
+                press(&browser, ENTER).await;
+                browser
+                    .until("document.activeElement.closest('#tables')", "the link leads to the tables")
+                    .await;
+            }
+        }
+    }
 }

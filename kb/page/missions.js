@@ -1,0 +1,44 @@
+/** Missions that were driven: a list, of which one is looked at again. */
+
+import { get, path } from './api.js';
+import { button, byId, el, fill, grid, refill } from './dom.js';
+import { moment, time } from './format.js';
+import { ended, fromTo } from './mission-words.js';
+import { model } from './model.js';
+import { said } from './notice.js';
+import { replay } from './replay.js';
+
+const PAGE = 20;
+let shown = PAGE;
+
+function row(mission) {
+  const { mission: number, robot, seconds, length, at } = mission;
+  const again = button('Look again', () => open(number), { 'aria-label': `Look at mission ${number} again` });
+  return [String(number), robot ?? '', fromTo(mission), ended(mission), `${time(seconds)}, ${length.toFixed(1)} m`, moment(at), again];
+}
+
+async function open(number) {
+  try {
+    replay(await get(`/api/missions/${number}`));
+  } catch (error) {
+    byId('missions').prepend(said(error));
+  }
+}
+
+async function load() {
+  if (!byId('missions-card').open) return;
+  try {
+    const { missions } = await get(path('/api/missions', { limit: shown + 1 }));
+    const more = missions.length > shown ? button('Show earlier ones', () => { shown += PAGE; return load(); }) : null;
+    const none = el('p', { class: 'hint', text: 'None is kept yet. What a robot drives by the rules of this site, or a simulation of one, can be kept with its journal, and looked at here again.' });
+    refill(byId('missions'), missions.length ? grid('Missions', ['mission', 'robot', 'way', 'it', 'took', 'kept', ''], missions.slice(0, shown).map(row)) : none, more);
+  } catch (error) {
+    fill(byId('missions'), said(error));
+  }
+}
+
+/** Makes the list; it is read whenever somebody opens it. */
+export function startMissions() {
+  byId('missions-card').addEventListener('toggle', load);
+  model.on('generation', load);
+}
