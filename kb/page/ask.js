@@ -5,7 +5,7 @@ import { button, byId, el, fill, focusStays, form } from './dom.js';
 import { count, value as inWords } from './format.js';
 import { model } from './model.js';
 import { said } from './notice.js';
-import { refresh } from './refresh.js';
+import { tell } from './told.js';
 
 let answers = [];
 
@@ -49,16 +49,10 @@ function keepButton({ question }) {
   return button('Tell the site these answers', () => keep(told));
 }
 
-async function keep(told) {
-  try {
-    let generation;
-    for (const { what, value } of told) {
-      const [, name, object, property] = /^([^.]+)\.(.*)\.([^.]+)$/u.exec(what);
-      ({ generation } = await post('/api/facts', { class: name.toUpperCase(), object, property, value, why: 'answered' }));
-    }
-    await refresh(generation);
-    fill(byId('ask-said'), el('p', { class: 'right', text: 'Told; it is among what is told now.' }));
-  } catch (error) {
-    fill(byId('ask-said'), said(error));
+function keep(told) {
+  for (const { what, value } of told) {
+    const [, name, object, property] = /^([^.]+)\.(.*)\.([^.]+)$/u.exec(what);
+    tell({ class: name.toUpperCase(), object, property, value });
   }
+  byId('preview-title').focus();
 }

@@ -11,6 +11,7 @@ import { refresh } from './refresh.js';
 import { andThen, focusSaved, showSaved } from './saved.js';
 import { holds, middleOf } from './shapes.js';
 import { nounOf, showsPieces, sidesOf } from './thing.js';
+import { waitsAs } from './told.js';
 import { lookAhead } from './would.js';
 
 /** As far as a door may be from the point at which it was told, metres. */
@@ -83,7 +84,7 @@ export function close(edit, label, sides = []) {
   // Beside numbers, rules and what is drawn: previewed and saved with them.
   function toTheTray() {
     const edit = wish();
-    put(`close:${edit.what ?? edit.object ?? edit.fact}`, { words: `${title}${edit.from ? ` from ${edit.from}` : ''}${untilWhen(edit.until)}${edit.only ? ` for ${edit.only}` : ''}`, edits: [edit] });
+    put(waitsAs(edit), { words: `${title}${edit.from ? ` from ${edit.from}` : ''}${untilWhen(edit.until)}${edit.only ? ` for ${edit.only}` : ''}`, edits: [edit] });
     made.remove();
     byId('preview-title').focus();
   }

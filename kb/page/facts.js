@@ -1,17 +1,15 @@
 /** Facts: what people and robots told of single things, and until when. */
 
-import { get, post } from './api.js';
+import { get } from './api.js';
 import { askCard } from './ask.js';
 import { button, byId, el, fill, form, grid, refill } from './dom.js';
-import { moment, untilWhen } from './format.js';
+import { moment } from './format.js';
 import { author, fact as words } from './history-words.js';
 import { isGoing, readLaid, takeAway } from './laid.js';
 import { model } from './model.js';
 import { said } from './notice.js';
-import { discard, put } from './pending.js';
-import { refresh } from './refresh.js';
 import { isOpen, onTab } from './router.js';
-import { andThen, showSaved } from './saved.js';
+import { isGoing as isTakenBack, takeBack, tell as tellWithTheRest } from './told.js';
 import { lookAhead } from './would.js';
 
 const USUAL = {
@@ -30,21 +28,10 @@ function field(label, id, attributes = {}) {
   return el('label', { 'data-field': id }, `${label} `, el('input', { id: `fact-${id}`, autocomplete: 'off', ...attributes }));
 }
 
-// What is told with rules or numbers that belong to it is previewed and saved with them.
-function toTheTray() {
-  const told = fact();
-  if (!told) return byId('fact-object').focus();
-  put(`tell:${told.class}:${told.object}:${told.property}`, { words: `Told: ${words({ ...told, key: told.object })}${untilWhen(told.until)}`, edits: [{ kind: 'tell', ...told }] });
-  byId('fact-object').value = '';
-  would.forget();
-  return byId('preview-title').focus();
-}
-
 function tellForm() {
-  const withTheRest = button('Save it with the rest', toTheTray, { id: 'fact-with-the-rest' });
   const kind = el('select', { id: 'fact-kind' }, ...usualHere().map((name) => el('option', { value: name, text: USUAL[name].text })));
   const made = form({ class: 'fact-form' }, tell, el('label', {}, 'What ', kind), field('Class', 'class', { placeholder: model.site.rooms_mode === 'none' || model.site.layout_kind ? 'in capitals, as its table is called' : 'ROOMS, AREAS…' }), field('Which', 'object', { required: true }),
-    field('Property', 'property'), field('Value', 'value'), field('Until', 'until', { placeholder: 'taken back, 18:00, 2h', title: 'A time, a while, or a day with its time: 18:00, 2h, 2026-12-24T08:00' }), field('Why', 'why', { placeholder: 'if you like' }), el('div', { class: 'buttons' }, send, withTheRest));
+    field('Property', 'property'), field('Value', 'value'), field('Until', 'until', { placeholder: 'taken back, 18:00, 2h', title: 'A time, a while, or a day with its time: 18:00, 2h, 2026-12-24T08:00' }), el('div', { class: 'buttons' }, send));
   const choose = () => {
     const usual = USUAL[kind.value];
     for (const name of ['class', 'property', 'value']) {
@@ -72,37 +59,28 @@ const send = el('button', { type: 'submit', class: 'strong', text: 'Tell it' });
 const would = lookAhead('fact-would', () => fact() && { kind: 'tell', ...fact() }, send);
 
 /** What was typed as a value: a number, yes or no, or a text. */
-export function typed(text) {
+function typed(text) {
   if (text === 'true' || text === 'false') return text === 'true';
   return text !== '' && Number.isFinite(Number(text)) ? Number(text) : text;
 }
 
-async function tell() {
+// It waits, and is saved with rules and numbers that belong to it; what the service would refuse stays in the form.
+function tell() {
   if (!would.isReady()) return;
-  const told = fact();
-  try {
-    const answer = await post('/api/edits', { edit: { kind: 'tell', ...told }, why: read('why') || undefined });
-    byId('fact-object').value = '';
-    would.forget();
-    fill(byId('fact-said'), el('p', { class: 'right', role: 'status', text: 'Told. Routes follow at once.' }));
-    showSaved(`Told: ${words({ ...told, key: told.object })}.${andThen([answer])}`, [answer.done.id]);
-    await refresh(answer.generation);
-    await load();
-  } catch (error) {
-    fill(byId('fact-said'), said(error));
-  }
+  tellWithTheRest(fact());
+  byId('fact-object').value = '';
+  would.forget();
+  byId('preview-title').focus();
 }
 
 // People know spaces and doorways by their names, which facts about them outlive.
 const called = (fact) => ({ ...fact, key: ['SPACES', 'DOORWAYS'].includes(fact.class) && fact.about.length === 1 ? fact.about[0] : fact.object });
 
-const retractId = ({ id }) => `retract:${id}`;
-
 /** Has a fact taken back with what is saved next; asked once more, it stays. */
 function retracting(fact) {
   const said = words(called(fact));
-  const text = model.pending.has(retractId(fact)) ? 'Keep' : 'Take back…';
-  return button(text, () => (model.pending.has(retractId(fact)) ? discard(retractId(fact)) : put(retractId(fact), { words: `No longer told: ${said}`, edits: [{ kind: 'retract', fact: fact.id }] })), { 'aria-label': `${text} ${said}` });
+  const text = isTakenBack(fact) ? 'Keep' : 'Take back…';
+  return button(text, () => takeBack(fact, said), { 'aria-label': `${text} ${said}` });
 }
 
 async function load() {
@@ -140,7 +118,7 @@ function drawLink() {
 function show() {
   if (!byId('fact-kind')) {
     fill(byId('facts'), el('div', { class: 'card' }, el('h2', { text: 'What is told now' }), el('div', { id: 'facts-list' })),
-      model.may('tell') ? el('div', { class: 'card' }, el('h2', { text: 'Tell something' }), tellForm(), el('div', { id: 'fact-said' })) : null,
+      model.may('tell') ? el('div', { class: 'card' }, el('h2', { text: 'Tell something' }), tellForm()) : null,
       askCard(),
       model.site.rooms_mode === 'none' ? null : el('div', { class: 'card' }, el('h2', { text: 'What lies over the map' }), el('div', { id: 'laid-list' }), model.may('tell') ? drawLink() : null));
   }

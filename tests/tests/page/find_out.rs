@@ -31,7 +31,10 @@ async fn a_value_is_found_out_question_by_question() {
     browser.press("#ask-said", "Answer").await;
     browser.says("#ask-said", "orders.2.wrapping is none").await;
     browser.press("#ask-said", "Tell the site these answers").await;
-    browser.says("#ask-said", "Told").await;
+    browser.says("#preview", "Told: order 2 present: no").await;
+    browser.until("!document.getElementById('save').disabled", "it may be saved").await;
+    browser.click("#save").await;
+    browser.says("#saved", "Saved: Told").await;
     assert_eq!(
         site.sqlite3("SELECT value FROM conclusions WHERE object = 'orders.2' AND property = 'wrapping'"),
         ["none"]

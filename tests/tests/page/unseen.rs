@@ -206,7 +206,10 @@ async fn a_form_that_is_sent_twice_tells_once() {
     browser
         .run("const form = document.querySelector('.fact-form'); form.requestSubmit(); form.requestSubmit()")
         .await;
-    browser.says("#fact-said", "Told").await;
+    browser.says("#preview", "Told: door 3 passable: no").await;
+    until_it_may_be_saved(&browser).await;
+    browser.run("const save = document.getElementById('save'); save.click(); save.click()").await;
+    browser.says("#saved", "Saved: Told").await;
     browser.click("nav a[href='#map']").await;
     browser.click("#outline summary").await;
     browser.type_into("#outline-search", "door 5").await;

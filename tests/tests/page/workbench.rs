@@ -143,7 +143,8 @@ async fn furnish(hands: &mut Hands, site: &TestSite) {
     hands.write("fact-object", "2,3.4").await;
     hands.browser.says("#fact-would", "doorway").await;
     hands.push("Tell it").await;
-    hands.browser.says("#fact-said", "Told").await;
+    hands.browser.says("#preview", "Told: doorway at 2,3.4 closed: yes").await;
+    hands.save("Saved: Told").await;
     assert_eq!(site.sqlite3("SELECT count(*) FROM doorways WHERE closed"), ["1"]);
     hands.step("a closed doorway");
 
