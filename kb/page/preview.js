@@ -1,9 +1,9 @@
 /** Before anything is saved: what all that is edited would change together, on the map and in numbers. */
 
 import { post } from './api.js';
-import { difference } from './difference.js';
+import { clashes, isClashing } from './clashes.js';
 import { button, byId, debounced, el, fill, focusStays, keep } from './dom.js';
-import { drafts, files, forget, loadFiles, overtaken, rebase } from './drafts.js';
+import { drafts, loadFiles, rebase } from './drafts.js';
 import { reopen } from './draw.js';
 import { count, list, value } from './format.js';
 import { firmWithin, pauseFirm, resumeFirm } from './firm.js';
@@ -13,7 +13,6 @@ import { cells, discard, edits, keyName, restore } from './pending.js';
 import { refresh } from './refresh.js';
 import { andThen, focusSaved, forgetSaved, showSaved } from './saved.js';
 import { cellList, conclusionList, noteList, routeList, rulesTried, summary, thisRoute } from './summary.js';
-import { otherRows, outdated } from './table-file.js';
 import { isOn } from './tunings.js';
 
 const WAIT = 120;
@@ -24,7 +23,6 @@ let failed = null;
 let refused = null;
 /** The edits, as text, that the preview on the screen is of. */
 let previewed = '';
-let conflicts = new Map();
 let saving = false;
 
 const question = () => JSON.stringify(edits(false));
@@ -76,6 +74,7 @@ function makeCard() {
     typed: el('ul', { class: 'plain typed' }),
     items: new Map(),
     told: el('div', { id: 'preview-told' }),
+    refused: el('div'),
     clashes: el('div'),
     why: el('input', { id: 'save-why', placeholder: 'if you like' }),
     who: el('input', { id: 'save-who', placeholder: 'for the history', autocomplete: 'name', value: localStorage.getItem('adit-who') ?? '' }),
@@ -90,14 +89,13 @@ function makeCard() {
   made.why.addEventListener('focus', () => { before = made.why.value; });
   made.why.addEventListener('keydown', (event) => { if (event.key === 'Escape') made.why.value = before; });
   made.who.addEventListener('input', () => localStorage.setItem('adit-who', made.who.value.trim()));
-  fill(byId('preview'), made.typed, made.told, made.clashes, el('label', {}, 'Why ', made.why), made.whose, el('div', { class: 'buttons' }, made.save, made.unseen, made.discard, made.hint));
+  fill(byId('preview'), made.typed, made.clashes, made.told, made.refused, el('label', {}, 'Why ', made.why), made.whose, el('div', { class: 'buttons' }, made.save, made.unseen, made.discard, made.hint));
   return made;
 }
 
 function discardAll() {
   const gone = model.pending;
   if (!gone.size) return;
-  conflicts = new Map();
   discard();
   showSaved(`Discarded: ${count(gone.size, 'change')}.`, [], { text: 'Undo', act: () => {
     forgetSaved();
@@ -147,8 +145,9 @@ function show() {
   listItems();
   fill(card.told, ...told());
   card.told.setAttribute('aria-busy', String(Boolean(model.preview) && !isPreviewed()));
-  const clashes = [...conflicts].filter(([id]) => model.pending.has(id));
-  fill(card.clashes, refused ? said(refused) : null, ...clashes.map(([id, error]) => conflict(id, error)), ...overtaken().map(otherFile), ...outdated().map(otherRows));
+  fill(card.refused, refused ? said(refused) : null);
+  // What is being saved is another one until all is loaded.
+  keep(card.clashes, saving ? [] : clashes());
   card.whose.hidden = Boolean(sessionStorage.getItem('adit-token'));
   card.save.textContent = size === 1 ? 'Save' : `Save all ${size}`;
   card.save.disabled = !maySave() || !isPreviewed();
@@ -156,47 +155,12 @@ function show() {
   card.unseen.disabled = !maySave();
 }
 
-const maySave = () => !saving && !model.preview?.rules?.failed && !overtaken().length && !outdated().length && ![...model.pending].some(([id, item]) => item.wrong || conflicts.has(id));
+const maySave = () => !saving && !model.preview?.rules?.failed && !isClashing() && ![...model.pending.values()].some(({ wrong }) => wrong);
 
 // What would change cannot be told: too large, too late. Whoever saves it all the same has to say so.
 const isPreviewless = () => Boolean(failed && failed.status >= 500);
 
-function conflict(id, error) {
-  const cell = model.pending.get(id);
-  const theirs = error.current !== undefined ? value(error.current) : 'theirs';
-  return el('div', { class: 'conflict' }, el('p', { class: 'wrong', role: 'alert', text: error.message }),
-    button(`Take ${theirs}`, () => settle(id, null), { class: 'take-theirs' }),
-    button(`Set ${value(cell.value)} again`, () => settle(id, error.current), { class: 'set-mine' }));
-}
-
-// Somebody else saved the file since it was read: what they made of it is shown before it is saved over.
-function otherFile({ file, was, text }) {
-  const theirs = files.get(file)?.text ?? null;
-  const what = theirs === null ? `${file} was deleted by somebody else meanwhile.` : was === null ? `Somebody else has made a file ${file} meanwhile.` : `${file} was saved by somebody else meanwhile. What they changed:`;
-  return el('div', { class: 'conflict' }, el('p', { class: 'wrong', role: 'alert', text: what }), theirs === null ? null : difference(was ?? '', theirs),
-    text === null || theirs === null ? null : el('details', {}, el('summary', { text: 'Yours beside theirs' }), difference(theirs, text)),
-    el('div', { class: 'line-form' }, button('Take theirs (what I typed is lost)', () => forget(file), { class: 'take-theirs' }),
-      button('Keep mine, over theirs', () => rebase(file), { class: 'set-mine' })));
-}
-
-// Theirs: the pending edit goes. Mine: it stands on what is there now, so that saving it is no blind overwrite.
-function settle(id, current) {
-  conflicts.delete(id);
-  if (current === null) return discard(id);
-  const pending = new Map(model.pending);
-  pending.set(id, { ...pending.get(id), old: current });
-  model.set('pending', pending);
-  return undefined;
-}
-
 const isSame = (one, other) => JSON.stringify([one?.edits, one?.value]) === JSON.stringify([other.edits, other.value]);
-
-/** What the tables hold of a cell. */
-function present({ table, key, column, tuning }) {
-  if (tuning) return undefined;
-  const of = model.table(table);
-  return of?.rows[of.keys.indexOf(key)]?.[of.columns.findIndex(({ name }) => name === column)];
-}
 
 /** Saves all, in one transaction; `isKnown` says whether it was on the screen what that would change, or that it cannot be told. */
 async function saveAll(isKnown) {
@@ -215,7 +179,7 @@ async function saveAll(isKnown) {
   try {
     const answer = await post('/api/edits', { edit, why: card.why.value.trim() || undefined });
     // What was saved is shown as saved even before the new weights are here; what was typed meanwhile waits.
-    model.pending = new Map([...model.pending].filter(([id, item]) => !isSame(sent.get(id), item)));
+    model.pending = new Map([...model.pending].filter(([id, item]) => !isSame(sent.get(id), item)).map(([id, item]) => [id, item.column !== undefined && sent.has(id) ? { ...item, old: sent.get(id).value } : item]));
     const saved = [...sent.values()].flatMap(({ draft }) => draft ?? []);
     if (saved.length) await loadFiles();
     // What was typed meanwhile goes on from what was saved.
@@ -229,11 +193,7 @@ async function saveAll(isKnown) {
   } catch (error) {
     if (error.status === 409) await refresh();
     if (error.status === 409 && drafts().length) await loadFiles();
-    for (const [id, cell] of error.status === 409 ? cells() : []) {
-      const current = present(cell);
-      if (current !== undefined && current !== cell.old) conflicts.set(id, { message: `${keyName(cell.key)} ${cell.column} is ${value(current)} by now, and was ${value(cell.old)} when you began.`, current });
-    }
-    if (!conflicts.size && !overtaken().length && !outdated().length) keepRefusal = error;
+    if (!isClashing()) keepRefusal = error;
   }
   saving = false;
   model.set('pending', new Map(model.pending));
@@ -283,7 +243,7 @@ export function startPreview() {
     }
     show();
   });
-  model.on('preview firm', show);
+  model.on('preview firm tables tunings', show);
   model.on('route generation', () => { if (model.pending.size) ask(); });
   document.addEventListener('keydown', saveBySign);
   new ResizeObserver(keepInSight).observe(byId('preview-card'));

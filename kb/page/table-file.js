@@ -54,7 +54,7 @@ export const outdated = () => [...model.pending.values()].flatMap(({ edits }) =>
 
 /** What is said of one, and what can be done. */
 export const otherRows = (edit) => el('div', { class: 'conflict' },
-  el('p', { class: 'wrong', role: 'alert', text: `${titleOf(edit.table)}: somebody else edited these rows since ${edit.file} was taken. Listed above is what the file changes of them as they are now.` }),
+  el('p', { class: 'wrong', role: 'alert', text: `${titleOf(edit.table)}: somebody else edited these rows since ${edit.file} was taken. Listed below is what the file changes of them as they are now.` }),
   el('div', { class: 'line-form' }, button('Leave the file', () => discard(idOf(edit.table)), { class: 'take-theirs' }),
     button('Take it all the same', () => keep(edit), { class: 'set-mine' })));
 

@@ -109,11 +109,9 @@ function update(table) {
     const { key, column } = cell;
     const base = table.rows[cell.at][column.index];
     const now = inTuning(table.table, key, column.name) ?? base;
-    const pending = model.pending.get(waitsAs(table.table, key, column.name));
     cell.value = now;
     cell.td.classList.toggle('tuned-otherwise', now !== base);
-    if (!pending && document.activeElement !== cell.input) cell.input.value = exact(now);
-    if (pending && pending.old !== now) warn(cell, pending, now);
+    if (!model.pending.has(waitsAs(table.table, key, column.name)) && document.activeElement !== cell.input) cell.input.value = exact(now);
   }
   const said = new Map((table.concluded ?? []).map(({ property, values }) => [property, values]));
   for (const { td, at, property } of view.results) {
@@ -128,13 +126,6 @@ function update(table) {
     cell.force.hidden = !mark || mark.tuning === model.editIn;
     if (cell.force.textContent !== words) cell.force.textContent = words;
   }
-}
-
-function warn(cell, pending, now) {
-  cell.td.classList.add('moved');
-  cell.note.textContent = `meanwhile ${inWords(now)}`;
-  cell.note.hidden = false;
-  cell.moved = pending.old;
 }
 
 function tables() {
@@ -194,13 +185,11 @@ function marks() {
       cell.td.classList.toggle('edited', Boolean(pending));
       cell.struck.hidden = !pending;
       cell.struck.textContent = pending ? inWords(pending.old) : '';
-      const moved = pending && cell.moved !== undefined && pending.old === cell.moved;
-      if (!moved) {
-        cell.moved = undefined;
-        cell.td.classList.remove('moved');
-        cell.note.hidden = !pending?.wrong;
-        cell.note.textContent = pending?.wrong ?? '';
-      }
+      // Somebody else has edited it since.
+      const moved = Boolean(pending) && pending.old !== cell.value;
+      cell.td.classList.toggle('moved', moved);
+      cell.note.hidden = !moved && !pending?.wrong;
+      cell.note.textContent = moved ? `meanwhile ${inWords(cell.value)}` : pending?.wrong ?? '';
       cell.input.toggleAttribute('aria-invalid', Boolean(pending?.wrong));
       const shownAs = pending ? exact(pending.value) : exact(cell.value);
       // While somebody types, `2.` must not become `2` under the hand.

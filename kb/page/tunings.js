@@ -37,9 +37,9 @@ function header() {
 /** Whether a tuning is on, or will be with what is saved next. */
 export const isOn = (name) => Boolean(model.tunings.find(({ tuning }) => tuning === name)?.on) !== model.pending.has(switchId(name));
 
-/** What a cell is in the tuning that is edited; undefined where that does not say it, or none is edited. */
-export function inTuning(table, key, column) {
-  const of = model.tunings.find(({ tuning }) => tuning === model.editIn);
+/** What a cell is in a tuning, the one that is edited unless another is named; undefined where that does not say it, or none is edited. */
+export function inTuning(table, key, column, name = model.editIn) {
+  const of = model.tunings.find(({ tuning }) => tuning === name);
   return of?.cells.find((cell) => cell.table === table && cell.key === key && cell.column === column)?.value;
 }
 

@@ -100,8 +100,9 @@ async fn of_two_experts_the_later_one_is_told_and_nothing_is_lost() {
     anna.click("#save").await;
     anna.says("#saved", "4 → 3").await;
     bert.says("[data-key='robot/SQUAT']", "meanwhile 3").await;
-    bert.click("#save").await;
-    bert.says(".conflict", "3").await;
+    // he is told at once, and saves nothing over it unseen
+    bert.says(".conflict", "SQUAT hardness is 3 by now, edited on the page; it was 4 when you began.").await;
+    assert_eq!(bert.value("document.getElementById('save').disabled").await, true);
     bert.screenshot("conflict").await;
     assert_eq!(site.sqlite3("SELECT hardness FROM robots WHERE state = 'SQUAT'"), ["3.0"]);
 
