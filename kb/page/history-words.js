@@ -2,7 +2,7 @@
 
 import { titleOf } from './cells.js';
 import { inWords } from './difference.js';
-import { value } from './format.js';
+import { count, list, value } from './format.js';
 import { describe } from './laid.js';
 import { keyName } from './pending.js';
 
@@ -70,4 +70,21 @@ export function words(entry) {
   }
   const [comes, goes] = ROWS[entry.table] ?? [() => `New in ${titleOf(entry.table)}: ${keyName(entry.key)}`, () => `Gone from ${titleOf(entry.table)}: ${keyName(entry.key)}`];
   return is ? comes(is) : goes(was);
+}
+
+const NOUNS = { told: 'fact', active_tunings: 'tuning', tuning_cells: 'tuned cell' };
+
+function nounOf(entry) {
+  if (isFile(entry)) return 'rule file';
+  const laid = entry.table === 'laid' && (rowOf(entry.new) ?? rowOf(entry.old));
+  if (laid) return laid.what === 'door' ? 'doorway' : laid.what;
+  return NOUNS[entry.table] ?? (entry.column ? 'cell' : 'row');
+}
+
+/** What was done in one go, by kinds: `3 cells, an area and a rule file`. What is moved or changed goes and comes, and is one. */
+export function kinds(entries) {
+  const things = new Map(entries.map((entry) => [JSON.stringify([entry.table, entry.key, entry.column]), nounOf(entry)]));
+  const counts = new Map();
+  for (const noun of things.values()) counts.set(noun, (counts.get(noun) ?? 0) + 1);
+  return list([...counts].map(([noun, n]) => (n > 1 ? count(n, noun) : `${/^[aeiou]/.test(noun) ? 'an' : 'a'} ${noun}`)));
 }

@@ -4,7 +4,7 @@ import { get, path } from './api.js';
 import { button, byId, el, fill, grid, refill } from './dom.js';
 import { moment } from './format.js';
 import { difference } from './difference.js';
-import { author, isFile, words } from './history-words.js';
+import { author, isFile, kinds, words } from './history-words.js';
 import { model } from './model.js';
 import { said } from './notice.js';
 import { refresh } from './refresh.js';
@@ -29,14 +29,17 @@ function row(entries, undoing) {
   const isUndo = entries.some(({ id }) => undoing.has(id));
   const ordered = isUndo ? [...entries].reverse() : entries;
   const all = [...new Set(ordered.map((entry) => words(isUndo ? { ...entry, old: entry.new, new: entry.old } : entry)))];
-  const what = `${isUndo ? 'Taken back: ' : ''}${all[0]}`;
-  const more = all.length > 1 ? el('details', { open: all.length <= SHOWN }, el('summary', { text: `and ${all.length - 1} more` }), el('ul', { class: 'plain' }, ...all.slice(1).map((text) => el('li', { text })))) : null;
+  // One thing is said itself; of several it is said what they are.
+  const isOne = all.length === 1;
+  const title = isOne ? all[0] : kinds(ordered);
+  const what = isUndo ? `Taken back: ${title}` : isOne ? title : `${title[0].toUpperCase()}${title.slice(1)}`;
+  const each = isOne ? null : el('details', { open: all.length <= SHOWN }, el('summary', { text: `All ${all.length}` }), el('ul', { class: 'plain' }, ...all.map((text) => el('li', { text }))));
   const texts = ordered.filter(isFile).map((entry) => el('details', {}, el('summary', { text: `What changed in ${entry.key}` }), lazily(() => difference(entry.old ?? '', entry.new ?? ''))));
   const open = entries.filter(({ undone }) => !undone);
   const undo = !open.length ? el('span', { class: 'hint', text: 'taken back' })
-    : model.may('tune') ? button('Undo…', () => takeBack(open[0].id, all.length > 1 ? `${what}, and ${all.length - 1} more` : what), { 'aria-label': `Undo ${what}` }) : null;
+    : model.may('tune') ? button('Undo…', () => takeBack(open[0].id, isUndo ? what : title), { 'aria-label': `Undo ${what}` }) : null;
   const by = [author(first.who), first.why].filter(Boolean).join(': ');
-  return [moment(first.at), el('div', { class: 'what' }, what, by ? el('p', { class: 'hint', text: by }) : null, more, ...texts), undo];
+  return [moment(first.at), el('div', { class: 'what' }, what, by ? el('p', { class: 'hint', text: by }) : null, each, ...texts), undo];
 }
 
 // Made once somebody looks.

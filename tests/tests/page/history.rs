@@ -18,11 +18,12 @@ async fn what_was_done_in_one_go_is_one_entry_in_words_and_taken_back_with_a_pre
     ];
     let body = json!({"edit": {"kind": "together", "edits": edits}, "why": "a spill"});
     assert_eq!(service.ask("POST", "/api/edits", Some(&body)).0, 200);
-    for words in ["Robot states, SQUAT hardness 4 → 3", "a spill", "and 4 more"] {
+    for words in ["A cell, an area, a fact, a tuned cell and a tuning", "a spill", "All 5"] {
         browser.says("#history", words).await;
     }
     browser.run("document.querySelector('#history details').open = true").await;
     for words in [
+        "Robot states, SQUAT hardness 4 → 3",
         "New on the map: the area “wet floor” (wet)",
         "Told: door at ",
         "passable: no",
@@ -38,13 +39,13 @@ async fn what_was_done_in_one_go_is_one_entry_in_words_and_taken_back_with_a_pre
     assert_eq!(browser.value(undos).await, 1);
 
     browser.press("#history", "Undo").await;
-    browser.says("dialog", "Take back “Robot states, SQUAT hardness 4 → 3, and 4 more”?").await;
+    browser.says("dialog", "Take back “a cell, an area, a fact, a tuned cell and a tuning”?").await;
     browser.says("dialog", "would change.").await;
     browser.press("dialog", "Keep").await;
     assert_eq!(site.sqlite3("SELECT count(*) FROM laid"), ["1"], "nothing is taken back yet");
     browser.press("#history", "Undo").await;
     browser.press("dialog", "Take it back").await;
-    browser.says("#history", "Taken back: Robot states, SQUAT hardness 4 → 3").await;
+    browser.says("#history", "Taken back: a cell, an area").await;
     assert_eq!(site.sqlite3("SELECT count(*) FROM laid UNION ALL SELECT count(*) FROM told UNION ALL SELECT count(*) FROM active_tunings"), ["0", "0", "0"]);
 
     // on a phone the way back stands beside what it takes back

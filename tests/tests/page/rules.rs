@@ -133,7 +133,7 @@ async fn a_rule_its_test_a_new_file_and_a_cell_are_one_change_saved_and_taken_ba
     assert_eq!(site.sqlite3("SELECT count(DISTINCT change_set) FROM history"), ["1"]);
 
     browser.click("nav a[href='#history']").await;
-    browser.says("#history", "and 3 more").await;
+    browser.says("#history", "3 rule files").await;
     browser.screenshot("history-of-rules").await;
     browser.press("#history", "Undo…").await;
     browser.says("dialog", "tests of the rules pass").await;
