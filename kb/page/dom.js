@@ -57,7 +57,7 @@ export function sure(question, yes) {
   return new Promise((resolve, reject) => {
     const text = el('p', { text: 'Looking what would change…', role: 'status' });
     const agree = el('button', { type: 'button', text: yes, class: 'strong', disabled: true, on: { click: () => box.close('yes') } });
-    const box = el('dialog', { 'aria-label': yes, on: { close: () => { resolve(box.returnValue === 'yes'); box.remove(); } } }, text,
+    const box = el('dialog', { class: 'sure', 'aria-label': yes, on: { close: () => { resolve(box.returnValue === 'yes'); box.remove(); } } }, text,
       el('div', { class: 'buttons' }, el('button', { type: 'button', text: 'Keep', autofocus: true, on: { click: () => box.close('no') } }), agree));
     document.body.append(box);
     box.showModal();

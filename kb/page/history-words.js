@@ -6,8 +6,8 @@ import { count, list, value } from './format.js';
 import { describe } from './laid.js';
 import { keyName } from './pending.js';
 
-// A row that came or went is kept as an object.
-function rowOf(of) {
+/** A row that came or went, which the history keeps as an object; null where it is none. */
+export function rowOf(of) {
   if (typeof of !== 'string' || !of.startsWith('{')) return of !== null && typeof of === 'object' ? of : null;
   try {
     return JSON.parse(of);
@@ -84,6 +84,7 @@ function nounOf(entry) {
 /** What was done in one go, by kinds: `3 cells, an area and a rule file`. What is moved or changed goes and comes, and is one. */
 export function kinds(entries) {
   const things = new Map(entries.map((entry) => [JSON.stringify([entry.table, entry.key, entry.column]), nounOf(entry)]));
+  if (things.size === 1 && entries[0].table === 'laid') return `moved or changed: ${describe(rowOf(entries[0].new) ?? rowOf(entries[0].old))}`;
   const counts = new Map();
   for (const noun of things.values()) counts.set(noun, (counts.get(noun) ?? 0) + 1);
   return list([...counts].map(([noun, n]) => (n > 1 ? count(n, noun) : `${/^[aeiou]/.test(noun) ? 'an' : 'a'} ${noun}`)));

@@ -8,7 +8,7 @@ class Model extends EventTarget {
   /** What is asked: start, goal, robot. */ ask = { start: '', goal: '', robot: '' };
   /** `/api/route`, or `{error}` */ route = null;
   /** `/api/preview` of what is pending */ preview = null;
-  /** `/api/preview` of what a form on the screen would make */ ahead = null;
+  /** `/api/preview` of what a form on the screen would make, or a question take back; `shapes` come and go with that */ ahead = null;
   /** What is edited and not saved, by a name of its own; see `pending.js`. */ pending = new Map();
   /** Why there is no preview of what is pending, as the service says it */ refusal = null;
   /** `/api/tunings` */ tunings = [];
@@ -24,7 +24,7 @@ class Model extends EventTarget {
   /** Where rooms are in `map.rooms`, by their number. */ roomIndex = new Map();
   /** Where doors are in `map.doors`, by their number. */ doorIndex = new Map();
 
-  /** What is drawn as it would be: what the form that is open would make, else all that is pending. */
+  /** What is drawn as it would be: what the form or the question that is open would do, else all that is pending. */
   get tried() {
     return this.ahead ?? this.preview;
   }

@@ -1,4 +1,4 @@
-/** Paints what is drawn and not saved yet, and what is to be taken away. */
+/** Paints what is drawn and not saved yet, what is to be taken away, and what would come or go with what is taken back. */
 
 import { corners } from './measure.js';
 import { model } from './model.js';
@@ -7,7 +7,8 @@ const HANDLE = 5;
 
 /** Over everything but the words. */
 export function paintPending(context, camera, ink, labels) {
-  for (const { shape } of model.pending.values()) if (shape?.points.length) drawn(context, camera, ink, labels, shape);
+  const shapes = [...model.pending.values()].map(({ shape }) => shape).concat(model.ahead?.shapes ?? []);
+  for (const shape of shapes) if (shape?.points.length) drawn(context, camera, ink, labels, shape);
 }
 
 function drawn(context, camera, ink, labels, { what, name, points, open, gone }) {

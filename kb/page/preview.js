@@ -13,6 +13,7 @@ import { cells, discard, edits, keyName, restore } from './pending.js';
 import { refresh } from './refresh.js';
 import { andThen, focusSaved, forgetSaved, showSaved } from './saved.js';
 import { cellList, conclusionList, noteList, routeList, rulesTried, summary, thisRoute } from './summary.js';
+import { previewOf } from './tried.js';
 import { isOn } from './tunings.js';
 
 const WAIT = 120;
@@ -40,17 +41,15 @@ const ask = debounced(async () => {
   const mine = new AbortController();
   stop = mine;
   const asked = question();
-  const { start, goal, robot } = model.ask;
-  const body = { edits: wanted, ...(start && goal ? { start, goal } : {}), ...(robot ? { robot } : {}) };
   try {
-    const answer = await post('/api/preview', { ...body, patience_ms: QUICK }, { signal: mine.signal });
+    const answer = await previewOf(wanted, { patience_ms: QUICK }, { signal: mine.signal });
     failed = null;
     previewed = asked;
     model.set('refusal', null);
     model.set('preview', answer);
     resumeFirm();
     // The first answer is quick; the whole comparison follows while nobody types.
-    if (answer.routes?.truncated) model.set('preview', await post('/api/preview', { ...body, patience_ms: THOROUGH }, { signal: mine.signal }));
+    if (answer.routes?.truncated) model.set('preview', await previewOf(wanted, { patience_ms: THOROUGH }, { signal: mine.signal }));
   } catch (error) {
     if (error.name === 'AbortError' || asked !== question()) return undefined;
     failed = error;

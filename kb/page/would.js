@@ -1,11 +1,11 @@
 /** What an edit that has a form of its own would change, shown in the form before it may be made. */
 
-import { post } from './api.js';
 import { byId, debounced, el, fill } from './dom.js';
 import { untilWhen } from './format.js';
 import { model } from './model.js';
 import { said } from './notice.js';
 import { noteList, summary, thisRoute } from './summary.js';
+import { previewOf } from './tried.js';
 
 const WAIT = 150;
 
@@ -50,9 +50,8 @@ export function lookAhead(id, wish, make) {
     const text = JSON.stringify(edit);
     asked = text;
     wait(true);
-    const { start, goal, robot } = model.ask;
     try {
-      const answer = await post('/api/preview', { edits: [edit], ...(start && goal ? { start, goal } : {}), ...(robot ? { robot } : {}) });
+      const answer = await previewOf([edit]);
       if (asked !== text) return undefined;
       show(text, ...(answer.closings ?? []).map((closing) => el('p', { text: `Then: ${closing}${edit.until ? untilWhen(edit.until) : ''}.` })), el('p', { text: summary(answer).join(' ') }), thisRoute(answer), noteList(answer.notes));
       draw(answer);

@@ -39,6 +39,12 @@ async fn a_cell_is_previewed_saved_and_taken_back() {
     assert_eq!(kept, ["7.0"]);
 
     browser.click("#undo").await;
+    browser
+        .until(
+            "document.querySelector('dialog[open]') && Number(document.getElementById('canvas').dataset.changed) > 0",
+            "what taking it back would change is marked on the map",
+        )
+        .await;
     browser.press("dialog", "Take it back").await;
     browser.says("#saved", "Taken back").await;
     browser.says("#route", "walk-on-knee").await;
