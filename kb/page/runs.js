@@ -1,7 +1,10 @@
 /** The steps of a route as a person would say them. */
 
-import { action, metres } from './format.js';
+import { action, cost, metres } from './format.js';
 import { model } from './model.js';
+
+/** Whether a run is longer than what is written as nothing. */
+const isFar = (run) => metres(run.metres) !== metres(0);
 
 /**
  * Steps of one action in a row become one run: {action, metres, cost, steps, end, changes}.
@@ -12,6 +15,7 @@ export function runs(route) {
   let at = route.waypoints[0];
   for (const step of route.steps) {
     let run = made.at(-1);
+    // over a map that is drawn each line and arc counts for itself
     if (!run || run.action !== step.action || model.site?.layout_kind) {
       run = { action: step.action, metres: 0, cost: 0, steps: [], change: null };
       made.push(run);
@@ -24,8 +28,7 @@ export function runs(route) {
     run.steps.push(step);
     if (step.kind === 'change') run.change = step;
   }
-  // over a map that is drawn each line and arc counts for itself
-  return made.filter((run) => run.metres > 0 || run.cost > 0 || made.length === 1 || model.site?.layout_kind);
+  return made.filter((run) => isFar(run) || Number(cost(run.cost)) > 0 || made.length === 1);
 }
 
 /** Where a run leads: `to door 104`, `to ward 12`, `to where it changes shape`. */
@@ -40,7 +43,7 @@ export function leadsTo(all, index, goal) {
 }
 
 /** A run in words. */
-export const sentence = (all, index, goal) => `${metres(all[index].metres)} ${leadsTo(all, index, goal)}`;
+export const sentence = (all, index, goal) => `${isFar(all[index]) ? `${metres(all[index].metres)} ` : ''}${leadsTo(all, index, goal)}`;
 
 /** One step in words: `room c, 15.2`, `door 28`. */
 export function stepText(step) {

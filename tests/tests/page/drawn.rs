@@ -76,5 +76,8 @@ async fn an_arm_and_a_flat_are_drawn() {
     let service = Service::start(&flat);
     let browser = Browser::open(&service.page("#map?start=bed&goal=bath"), Screen::Phone).await;
     browser.says("#route-card", "region 1").await;
+    let legs = "[...document.querySelectorAll('#route .run')].map((leg) => leg.innerText).join()";
+    let legs = browser.value(legs).await;
+    assert!(!legs.as_str().unwrap().contains("0.0 m"), "a doorway as thin as a line is no leg: {legs}");
     browser.screenshot("flat").await;
 }
