@@ -1,8 +1,9 @@
 /** The form beside what is drawn: what it is, how it is called, and where it lies in numbers. */
 
-import { el } from './dom.js';
+import { el, fill } from './dom.js';
 import { corners } from './measure.js';
 import { model } from './model.js';
+import { spokenOf } from './spoken.js';
 
 /** What can be drawn. */
 export const WORDS = { area: 'an area', obstacle: 'an obstacle', place: 'a place', bridge: 'a bridge', door: 'a named doorway' };
@@ -29,6 +30,16 @@ export function rectangleOf(outline) {
   return [all, [all[0], all[3], all[2], all[1]]].some((turned) => said(turned) === said(outline)) ? two : null;
 }
 
+/** The kinds that mean something here: those of which rules speak, and those that lie on the map. */
+async function kindsOf(what) {
+  const onMap = what === 'door' ? model.map.named_doors : model.map.areas;
+  const lying = [...onMap, ...model.laid.filter((laid) => laid.what === what)].map(({ kind }) => kind);
+  const spoken = await spokenOf(what === 'door' ? 'NAMED_DOORS' : 'AREAS', 'kind').catch(() => []);
+  // `keepout` is another way to write `keep-out`.
+  const plain = (kind) => kind.replace(/[^\p{L}\p{N}]/gu, '').toLowerCase();
+  return [...new Map([...spoken, ...lying].filter(Boolean).reverse().map((kind) => [plain(kind), kind])).values()].reverse();
+}
+
 /** The fields, and the form with them. `changed`, `done` and `forget` are called when they are. */
 export function fields({ changed, done, forget }) {
   const option = (from) => Object.entries(from).map(([name, text]) => el('option', { value: name, text }));
@@ -38,7 +49,7 @@ export function fields({ changed, done, forget }) {
     what: el('select', { id: 'draw-what', on }, ...option(WORDS)),
     shape: el('select', { id: 'draw-shape', on }, ...option({ rectangle: 'a rectangle', polygon: 'a polygon' })),
     name: input('name'),
-    kind: input('kind', { list: 'draw-kinds', placeholder: 'keep-out, wet…' }),
+    kind: input('kind', { list: 'draw-kinds', placeholder: 'if you like' }),
     height: input('height', { placeholder: '1.3', inputmode: 'decimal', size: '6' }),
     corners: input('corners', { placeholder: 'x,y x,y', inputmode: 'text' }),
     until: input('until', { placeholder: '18:00, 2h', title: 'A time, a while, or a day with its time: 18:00, 2h, 2026-12-24T08:00; else until it is taken away' }),
@@ -50,10 +61,20 @@ export function fields({ changed, done, forget }) {
   made.kindLabel = label('Kind', made.kind);
   made.heightLabel = label('Clear height, metres', made.height);
   made.cornersLabel = label('Corners, metres', made.corners);
-  const kinds = [...new Set(['keep-out', ...model.map.areas.map(({ kind }) => kind).filter(Boolean)])];
+  const kinds = el('datalist', { id: 'draw-kinds' });
+  let offered = null;
+  /** Offers the kinds of what is drawn. */
+  made.offer = async (what) => {
+    if (offered === what) return;
+    offered = what;
+    const found = await kindsOf(what);
+    if (offered !== what) return;
+    fill(kinds, ...found.map((kind) => el('option', { value: kind })));
+    made.kind.placeholder = found.length ? `${found.slice(0, 2).join(', ')}…` : 'if you like';
+  };
   made.form = el('form', { id: 'draw-form', class: 'card draw-form', 'aria-label': 'Draw on the map', on: { submit: (event) => { event.preventDefault(); done(); } } },
     label('Draw', made.what), made.shapeLabel, made.how, label('Name', made.name), made.kindLabel, made.heightLabel, made.cornersLabel, made.size, label('Until', made.until),
-    el('datalist', { id: 'draw-kinds' }, ...kinds.map((kind) => el('option', { value: kind }))),
+    kinds,
     el('div', { class: 'buttons' }, el('button', { type: 'submit', id: 'draw-done', text: 'Done' }), el('button', { type: 'button', id: 'draw-discard', text: 'Discard', on: { click: forget } })));
   made.form.addEventListener('keydown', (event) => {
     if (event.key !== 'Escape') return;

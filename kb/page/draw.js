@@ -90,6 +90,7 @@ class Tool {
     const what = of.what.value;
     of.shapeLabel.hidden = what !== 'area' && what !== 'obstacle';
     of.kindLabel.hidden = what !== 'area' && !this.isDoor;
+    if (!of.kindLabel.hidden) of.offer(what);
     of.heightLabel.hidden = !this.isBridge;
     of.cornersLabel.firstChild.data = `${this.isPlace ? 'Point' : this.isDoor ? 'Posts' : 'Corners'}, metres `;
     of.corners.placeholder = this.isPlace ? 'x,y' : 'x,y x,y';
