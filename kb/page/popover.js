@@ -57,12 +57,34 @@ function laid(of, act) {
   return [act(`Take away ${describe(of)}…`, () => takeAway(of)), act(`Move or change ${describe(of)}…`, () => redraw(of))];
 }
 
+const GAP = 12;
+/** What is pressed with a finger stays in sight by so much, pixels. */
+const CLEAR = 40;
+
+// It covers nothing of what it is about: it stands beside that, or above or beneath it.
 function place(box, px, py) {
   const { clientWidth: width, clientHeight: height } = byId('map-box');
-  const left = px + 12 + box.offsetWidth > width ? px - box.offsetWidth - 12 : px + 12;
-  const top = Math.min(py + 12, height - box.offsetHeight - 8);
-  box.style.setProperty('left', `${Math.max(6, Math.min(left, width - box.offsetWidth - 6))}px`);
+  box.style.removeProperty('--room');
+  delete box.dataset.above;
+  // On a phone it has the width of the window.
+  if (getComputedStyle(box).position === 'fixed') return placeAcross(box, byId('map-box').getBoundingClientRect().top + py);
+  const w = box.offsetWidth;
+  const beside = [px + GAP, px - GAP - w].find((left) => left >= 6 && left + w <= width - 6);
+  const [above, below] = [py - GAP, height - py - GAP];
+  if (beside === undefined) box.style.setProperty('--room', `${Math.max(above, below)}px`);
+  const h = box.offsetHeight;
+  const top = beside !== undefined ? Math.min(py + GAP, height - h - 8) : h <= below ? py + GAP : py - GAP - h;
+  box.style.setProperty('left', `${beside ?? Math.max(6, Math.min(px - w / 2, width - w - 6))}px`);
   box.style.setProperty('top', `${Math.max(6, top)}px`);
+  return undefined;
+}
+
+// At the lower end of the window where the point stays in sight, else at the upper one, and no higher than there is room.
+function placeAcross(box, y) {
+  const [above, below] = [y - CLEAR, window.innerHeight - y - CLEAR];
+  const isAbove = box.offsetHeight > below && above > below;
+  box.toggleAttribute('data-above', isAbove);
+  box.style.setProperty('--room', `${Math.max(above, below)}px`);
 }
 
 byId('popover').addEventListener('keydown', (event) => {
