@@ -34,6 +34,9 @@ async fn an_area_is_dragged_named_where_it_lies_previewed_saved_and_taken_back()
     browser.says("#route-title", "home to window").await;
     let cost = browser.text("#route-title .total").await;
     browser.click("#draw").await;
+    browser.until("document.querySelector('#draw-kinds option')", "kinds are offered").await;
+    let kinds = "[...document.querySelectorAll('#draw-kinds option')].map((of) => of.value).join()";
+    assert_eq!(browser.value(kinds).await, "keep-out", "only those of which rules speak");
     // beside the doorway, from wall to wall but for a gap
     browser.drag_on_map([7.0, 1.5], [9.0, 5.5]).await;
     assert_eq!(browser.value("document.activeElement.id").await, "draw-name");
@@ -246,4 +249,20 @@ async fn a_bridge_and_a_named_doorway_are_drawn_and_what_lies_there_is_measured(
     browser.tap_on_map([6.0, 4.0]).await;
     browser.says("#measured", "1.00 m").await;
     browser.screenshot("measured").await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn on_a_phone_what_is_said_of_a_point_does_not_cover_it() {
+    let (_site, service, _desk) = starter().await;
+    let phone = Browser::open(&service.page(WAY), Screen::Phone).await;
+    phone.says("#route-title", "home to window").await;
+    let note = "document.addEventListener('pointerup', (event) => { window.pressed = event.clientY; }, true)";
+    phone.run(note).await;
+    for y in [0.5, 2.0, 4.0, 6.0, 7.5] {
+        phone.tap_on_map([8.0, y]).await;
+        phone.until("!document.getElementById('popover').hidden", "the card is there").await;
+        let covers = "(({ top, bottom }) => top <= window.pressed && window.pressed <= bottom)(document.getElementById('popover').getBoundingClientRect())";
+        assert_eq!(phone.value(covers).await, false, "at {y}");
+        phone.run("document.querySelector('#popover .shut').click()").await;
+    }
 }
