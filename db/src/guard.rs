@@ -85,7 +85,7 @@ pub(crate) fn memory() -> i64 {
 }
 
 const ONE: &str = "one statement at a time, please";
-const READING: &str = "only statements that read are allowed here: edit by `adit tune`";
+const READING: &str = "only statements that read are allowed here; edits go through the tables, so that they are checked and can be undone";
 
 /// Functions that do more than compute, tell of more than the data, or take time with the square of a text's length or
 /// memory with the product of two.

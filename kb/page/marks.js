@@ -60,8 +60,8 @@ class Marks {
     if (!replay) return [];
     const { way, trail, seen, start, goal, pose, truth, name } = replay;
     const lines = (seen ?? []).map(([x0, y0, x1, y1]) => this.line([[x0, y0], [x1, y1]], 'seen'));
-    return [this.line(way, 'replay-way'), this.line(trail, 'trail'), ...lines, this.ring(start, 'replay-end'), this.ring(goal, 'replay-end goal'),
-      truth ? this.body(truth, truth[2], 'truth', null) : null, this.body(pose, pose[2], 'robot replayed', name)];
+    return [this.line(way, 'replay-way'), this.line(trail, 'trail'), ...lines, this.ring(start, 'replay-from'), this.ring(goal, 'replay-to'),
+      truth ? this.body(truth, truth[2], 'truth', null) : null, this.body(pose, pose[2], 'replayed', name)];
   }
 
   all() {

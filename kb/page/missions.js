@@ -30,7 +30,7 @@ async function load() {
   try {
     const { missions } = await get(path('/api/missions', { limit: shown + 1 }));
     const more = missions.length > shown ? button('Show earlier ones', () => { shown += PAGE; return load(); }) : null;
-    const none = el('p', { class: 'hint', text: 'None is kept yet. What a robot drives by the rules of this site, or a simulation of one, can be kept with its journal, and looked at here again.' });
+    const none = el('p', { class: 'hint', text: 'None is kept yet. A mission that a robot drives by the rules of this site, or a simulated one, can be kept with its journal; it is listed here then, to be looked at again.' });
     refill(byId('missions'), missions.length ? grid('Missions', ['mission', 'robot', 'way', 'it', 'took', 'kept', ''], missions.slice(0, shown).map(row)) : none, more);
   } catch (error) {
     fill(byId('missions'), said(error));

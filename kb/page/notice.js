@@ -15,7 +15,7 @@ export function banner(name, content, tone = 'warn') {
 }
 
 // What helps in a terminal helps nobody here.
-const isForTerminals = (help) => help.includes('`adit ');
+const isForTerminals = (help) => /`adit |\/api\/|`--[a-z]/u.test(help);
 
 /** An error as nodes: what is wrong, and what helps. */
 export function said(error) {

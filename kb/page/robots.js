@@ -33,7 +33,7 @@ function wayOf({ way }) {
 
 function heard({ who, seconds, way }) {
   if (seconds < QUIET_S) return null;
-  return who || !way ? `not heard since ${ago(seconds)}` : `asked for its way from here ${ago(seconds)}`;
+  return who || !way ? `last heard ${ago(seconds)}` : `asked for its way from here ${ago(seconds)}`;
 }
 
 function toldOf({ way }) {

@@ -33,6 +33,8 @@ mod rules;
 mod sentences;
 #[path = "page/shop.rs"]
 mod shop;
+#[path = "page/spoken.rs"]
+mod spoken;
 #[path = "page/sql.rs"]
 mod sql;
 #[path = "page/tune.rs"]

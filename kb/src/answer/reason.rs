@@ -119,7 +119,7 @@ fn not_entered(graph: &SiteGraph, room: RoomIndex, rules: &Rules) -> String {
     let place = format!("room {} at ({x:.2}, {y:.2})", room.name);
     match (room.passable.value, room.passable.rule.and_then(|rule| rules.get(&rule))) {
         (Some(false), Some(rule)) => format!("{place} is not entered (rule \"{rule}\")"),
-        (Some(false), None) => format!("{place} is told not to be entered (`adit tell SITE --list`)"),
+        (Some(false), None) => format!("{place} is told not to be entered"),
         (None, _) => format!("whether {place} is entered is unknown: no rule says so, or rules disagree"),
         (Some(true), _) => format!("{place} has no hardness: no rule gives it one, or rules disagree"),
     }
@@ -146,7 +146,7 @@ fn shut(graph: &SiteGraph, door: &Door, rules: &Rules) -> String {
     match (door.passable.value, rule) {
         (Some(false), Some(rule)) => format!("{place} lets no state through (rule \"{rule}\"): {needed}"),
         (Some(false), None) => {
-            format!("{place} is told to let nobody through, whatever its size (`adit tell SITE --list`)")
+            format!("{place} is told to let nobody through, whatever its size")
         }
         _ => format!("{place} has no hardness: no rule gives it one, or rules disagree"),
     }

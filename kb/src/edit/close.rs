@@ -252,8 +252,8 @@ pub(super) fn whatever_the_hours(
     let is_it = |name: &str| name == what || door.as_deref() == Some(name);
     Ok(hours.iter().any(|of| is_it(&of.name)).then(|| {
         format!(
-            "{what} is open from now on whatever its opening hours say: `adit tell SITE --retract {fact}`, or undo, gives \
-             it back to them"
+            "{what} is open from now on whatever its opening hours say; once fact {fact} is taken back, or this is undone, \
+             they count again"
         )
     }))
 }

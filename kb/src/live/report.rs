@@ -543,9 +543,7 @@ pub fn notes(state: &State) -> Vec<String> {
     let unmet = knowledge.unmet(&inputs.rules);
     notes.extend(unmet.iter().take(NOTED).map(ToString::to_string));
     let more = unmet.len().saturating_sub(NOTED);
-    notes.extend(
-        (more > 0).then(|| format!("and {more} more cells name rows that are not there (`adit check`)")),
-    );
+    notes.extend((more > 0).then(|| format!("and {more} more cells name rows that are not there")));
     notes
 }
 

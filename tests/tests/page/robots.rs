@@ -107,7 +107,7 @@ async fn look_again(screen: Screen) {
     keys(&browser, "#replay-card input", END).await;
     let end = mark(&browser, ".replayed").await;
     assert!(apart(start, end) > 30.0, "{start:?} to {end:?}");
-    let metres = browser.run("const [a, b] = document.querySelectorAll('#marks .replay-end'); return Math.hypot(a.getAttribute('cx') - b.getAttribute('cx'), a.getAttribute('cy') - b.getAttribute('cy'))").await;
+    let metres = browser.run("const [a, b] = document.querySelectorAll('#marks :is(.replay-from, .replay-to)'); return Math.hypot(a.getAttribute('cx') - b.getAttribute('cx'), a.getAttribute('cy') - b.getAttribute('cy'))").await;
     let far = |of: &Value| of.as_f64().unwrap();
     let truly = (far(&mission["start"][0]) - far(&mission["goal"][0]))
         .hypot(far(&mission["start"][1]) - far(&mission["goal"][1]));

@@ -1,16 +1,41 @@
 //! Every sentence that the page says by itself, in one document (`sentences.md`), to be read as a whole: after
 //! `ADIT_SAID=write cargo test --workspace --test page sentences` its difference shows what is said otherwise.
 
+use std::fmt::Write as _;
 use std::fs;
 use std::path::PathBuf;
 use std::process::Command;
 
 use adit_tests::repository;
 
+use crate::spoken;
+
 /// A parser of JavaScript that others wrote, where `tests/run` installs it.
 fn modules() -> PathBuf {
     let exe = std::env::current_exe().unwrap();
     exe.ancestors().nth(3).unwrap().join("axe")
+}
+
+/// What may be shown of what the service says, by its files.
+fn spoken() -> String {
+    let mut document = "\n# What the service says to it\n\nThe texts of the program's files that may come to the page: errors, reasons, notes, remarks, and words on pictures.\n".to_owned();
+    for (file, texts) in spoken::texts(&repository()) {
+        let shown: Vec<String> = texts
+            .into_iter()
+            .filter(|text| !(text.is_help && is_for_terminals(&text.words)))
+            .map(|text| text.words)
+            .collect();
+        if !shown.is_empty() {
+            write!(document, "\n## {file}\n\n- {}\n", shown.join("\n- ")).unwrap();
+        }
+    }
+    document
+}
+
+/// As the page has it (`notice.js`).
+fn is_for_terminals(help: &str) -> bool {
+    let has_option = help.split("`--").skip(1).any(|rest| rest.starts_with(|c: char| c.is_ascii_lowercase()));
+    has_option || ["`adit ", "/api/"].iter().any(|part| help.contains(part))
 }
 
 fn said() -> String {
@@ -20,7 +45,7 @@ fn said() -> String {
     let out = node.output().expect("node runs");
     assert!(out.status.success(), "{}", String::from_utf8_lossy(&out.stderr));
     let head = "# What the page says\n\nMade by a test; `…` stands for what is put in.\n\n";
-    format!("{head}{}", String::from_utf8(out.stdout).unwrap())
+    format!("{head}{}{}", String::from_utf8(out.stdout).unwrap(), spoken())
 }
 
 #[test]
@@ -45,6 +70,20 @@ fn verbs() -> Vec<String> {
     let page = fs::read_to_string(repository().join("manual/src/commands.md")).unwrap();
     let verb = |line: &str| Some(line.strip_prefix("| `")?.split([' ', '`']).next()?.to_owned());
     page.lines().filter_map(verb).collect()
+}
+
+#[test]
+fn the_service_says_nothing_that_only_helps_in_a_terminal_but_in_helps() {
+    let said = spoken();
+    let commands: Vec<&str> =
+        said.lines().filter(|line| line.starts_with("- ") && is_for_terminals(line)).collect();
+    assert!(commands.is_empty(), "the page would show: {commands:#?}");
+    assert!(said.lines().count() > 1_000, "{} lines", said.lines().count());
+    let page = fs::read_to_string(repository().join("kb/page/notice.js")).unwrap();
+    assert!(
+        page.contains(r"/`adit |\/api\/|`--[a-z]/u.test(help)"),
+        "what the page leaves out is no longer what is looked for here"
+    );
 }
 
 #[test]

@@ -109,8 +109,8 @@ impl Course for LanesOf {
         let mut notes = self.graph.notes.clone();
         if self.places().is_empty() && !self.graph.nodes.is_empty() {
             notes.push(format!(
-                "none of {} nodes has a name, so that no routes are kept; `[[place]]` in site.toml names some, and `adit route` \
-                 takes any node",
+                "none of {} nodes has a name, so that no routes are kept; `[[place]]` in site.toml names some, and a route may \
+                 be asked for between any nodes",
                 self.graph.nodes.len()
             ));
         }

@@ -503,7 +503,7 @@ impl Pathfinder for Routes {
         let all = unknown.join(", ");
         vec![format!(
             "limits of speed count for nothing while a vehicle's own is unknown, as of {all}: \
-             `adit tune SITE vehicle_types {first} speed 1.5` says it, in m/s"
+             it stands in the table `vehicle_types`, row `{first}`, column `speed`, in m/s"
         )]
     }
 }
