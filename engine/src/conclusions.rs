@@ -85,7 +85,7 @@ impl fmt::Display for Reason {
                 write!(out, "rule \"{rule}\" found a `{variable}`, and needs that there is none")
             }
             Self::NotAll { rule, variable } => {
-                write!(out, "rule \"{rule}\" found a `{variable}` that has not what it needs of all")
+                write!(out, "rule \"{rule}\" found a `{variable}` that lacks what it needs of all")
             }
             Self::Undecided { rule, variable } => {
                 write!(out, "rule \"{rule}\" could not decide about `{variable}`: something is unknown")

@@ -133,7 +133,8 @@ impl fmt::Display for Rejected {
                 write!(out, "finds no `{variable}`: class {class} has no objects")
             }
             Rejection::Unmet { objects } => {
-                write!(out, "finds no `{variable}` among {objects} objects of {class}")
+                let s = if *objects == 1 { "" } else { "s" };
+                write!(out, "finds no `{variable}` among {objects} object{s} of {class}")
             }
             Rejection::Row { row, input, cell, value } => {
                 let value = value.as_ref().map_or("unknown".to_owned(), Value::to_string);

@@ -117,7 +117,7 @@ function testOf(answer, what) {
       if (!files.size) await loadFiles();
       const before = names().includes(MADE) ? textOf(MADE) : '';
       edit(MADE, `${before ? `${before.trimEnd()}\n\n` : ''}${test.text}`);
-      const fails = test.failures.length ? el('p', { class: 'wrong', text: `By itself it does not hold, since more decides than stands in it: ${test.failures[0].message}` }) : null;
+      const fails = test.failures.length ? el('p', { class: 'wrong', text: `By itself the test fails, since more than is given in it plays a part: ${test.failures[0].message}` }) : null;
       fill(saidHere, fails, el('p', {}, `It is in the tray, at the end of ${MADE}. `, el('a', { href: address('rules', { file: MADE }), text: 'Read it' })));
     } catch (error) {
       fill(saidHere, said(error));

@@ -68,7 +68,7 @@ function questionItem(question, at) {
     return ask({ what: talk.what, answers: [...talk.answers.slice(0, at), { ...question, value }] }, wrong);
   };
   const unknown = button('I do not know', () => reply(null));
-  const back = before ? button('Leave it', stay) : null;
+  const back = before ? button('Keep this answer', stay) : null;
   const text = el('p', { id: how.isTruth ? 'ask-next' : null, tabindex: how.isTruth ? '-1' : null, text: question.text });
   if (how.isTruth) return el('li', { class: 'asked' }, text, el('div', { class: 'buttons', role: 'group', 'aria-label': question.text }, button('Yes', () => reply(true)), button('No', () => reply(false)), unknown, back), wrong);
   const known = how.words.length ? el('datalist', { id: 'ask-words' }, ...how.words.map((word) => el('option', { value: word }))) : null;
@@ -87,7 +87,7 @@ function reason(text) {
 function result() {
   const { answers, asked: { status, value, why, what, weighed } } = talk;
   const isOpen = answers.some((answer) => answer.value === null);
-  const found = status === 'known' ? el('b', { text: `${what} is ${inWords(value)}` }) : isOpen ? `${what} is unknown as long as that is not known.` : `${what} is unknown, and nothing that can be asked would settle it.`;
+  const found = status === 'known' ? el('b', { text: `${what} is ${inWords(value)}` }) : isOpen ? `${what} stays unknown while an answer above is not known.` : `${what} is unknown, and nothing that can be asked would settle it.`;
   const reasons = isOpen && status !== 'known' ? [] : why;
   return el('div', {}, el('p', { id: 'ask-next', tabindex: '-1' }, found),
     reasons.length ? el('ul', { class: 'plain', 'aria-label': 'Why' }, ...reasons.map(reason)) : null,

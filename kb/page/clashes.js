@@ -62,11 +62,11 @@ function otherValue(id, cell) {
   const text = el('p', { class: 'wrong', role: 'alert' });
   const isGone = now === undefined;
   const isMine = now === cell.value;
-  const words = isGone ? `${keyName(cell.key)} is gone from ${titleOf(cell.table)} by now` : isMine ? `${name} is ${value(now)} by now, as you have it` : `${name} is ${value(now)} by now`;
+  const words = isGone ? `${keyName(cell.key)} is gone from ${titleOf(cell.table)} by now` : isMine ? `${name} is ${value(now)} by now, the same as yours` : `${name} is ${value(now)} by now`;
   const before = isGone || isMine ? '' : `; it was ${value(cell.old)} when you began`;
   doneBy(cell, isGone ? 'taken away' : 'edited').then((who) => { text.textContent = `${words}${who}${before}.`; });
   return el('div', { class: 'conflict' }, text, el('div', { class: 'line-form' },
-    button(isGone || isMine ? 'Leave my edit' : `Take ${value(now)}`, () => settle(() => discard(id)), { class: 'take-theirs' }),
+    button(isGone || isMine ? 'Drop my edit' : `Take ${value(now)}`, () => settle(() => discard(id)), { class: 'take-theirs' }),
     // It stands on what is there now, so that saving it is no blind overwrite.
     isGone || isMine ? null : button(`Set ${value(cell.value)} all the same`, () => settle(() => put(id, { ...cell, old: now })), { class: 'set-mine' })));
 }

@@ -13,7 +13,7 @@ const EXAMPLE = 'mission,state,distance,measured\n1,STAND,12.5,13.1\n1,SQUAT,1.2
 async function add(text) {
   try {
     const answer = await call('POST', path('/api/traversals', { measure: byId('measure').value }), text, { type: 'text/csv' });
-    fill(byId('experience-said'), el('p', { class: 'right', role: 'status', text: `${answer.added} rows taken; there are ${answer.total} now.` }));
+    fill(byId('experience-said'), el('p', { class: 'right', role: 'status', text: `${count(answer.added, 'row')} added, ${answer.total} in all.` }));
     byId('traversals').value = '';
     await load();
   } catch (error) {
@@ -51,7 +51,7 @@ function takeButton(cell) {
 async function load() {
   try {
     const fit = await get(path('/api/fit', { robot: model.ask.robot }));
-    const rows = fit.cells.map((cell) => [keyName(cell.key), cell.column, value(cell.present), el('b', { text: known(cell) ? number(cell.proposed) : 'cannot be told' }), cell.low === null ? '' : `${number(cell.low)} to ${number(cell.high)}`, String(cell.observations ?? ''), takeButton(cell)]);
+    const rows = fit.cells.map((cell) => [keyName(cell.key), cell.column, value(cell.present), el('b', { text: known(cell) ? number(cell.proposed) : 'cannot be estimated' }), cell.low === null ? '' : `${number(cell.low)} to ${number(cell.high)}`, String(cell.observations ?? ''), takeButton(cell)]);
     const notes = (fit.notes ?? []).map((text) => el('p', { class: 'hint', text }));
     const pending = model.pending.size ? el('p', {}, `${model.pending.size} taken. `, el('a', { href: '#map', text: 'See on the map what they would change, and save' })) : null;
     refill(byId('fit'), fit.cells.length ? grid('Proposed values', ['of', 'what', 'now', 'proposed', '95 % between', 'from', ''], rows) : el('p', { class: 'hint', text: 'Nothing to propose yet.' }), ...notes, pending);
@@ -83,7 +83,7 @@ function show() {
     fill(byId('experience'),
       el('div', { class: 'card' }, el('h2', { text: 'What fits the measurements' }), el('div', { id: 'fit' })),
       model.may('tune') ? el('div', { class: 'card' }, el('h2', { text: 'Add measurements' }),
-        el('p', { class: 'hint', text: 'A row a stretch: its state or action, metres, and what was measured. Rows of one mission share its total.' }),
+        el('p', { class: 'hint', text: 'One row for each stretch: its state or action, metres, and what was measured. Rows of one mission share its total.' }),
         el('label', {}, 'File (CSV) ', file), el('label', {}, 'or paste rows ', el('textarea', { id: 'traversals', rows: '6', placeholder: EXAMPLE })),
         el('label', {}, 'Measured in ', measure),
         el('div', { class: 'buttons' }, button('Add', () => add(byId('traversals').value), { id: 'traversals-add', class: 'strong' }), button('Delete all measurements', forget)),

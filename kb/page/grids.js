@@ -11,8 +11,8 @@ const HIT = {
   first: 'The first row that matches counts.',
   priority: 'Of the rows that match the one with the best value counts.',
   'collect sum': 'What all rows that match say is added up.',
-  'collect min': 'The least that a row that matches says counts.',
-  'collect max': 'The most that a row that matches says counts.',
+  'collect min': 'Of the rows that match the one with the least value counts.',
+  'collect max': 'Of the rows that match the one with the greatest value counts.',
   'collect count': 'The rows that match are counted.',
 };
 const MARK = { overlap: 'overlaps', unreachable: 'never reached' };

@@ -10,7 +10,7 @@ const MOST = 100;
 
 function space(index) {
   const { name, closed } = model.weights.spaces;
-  return { title: name[index], text: `${closed[index] ? 'closed; ' : ''}${number(model.map.spaces[index].area)} m² large` };
+  return { title: name[index], text: `${closed[index] ? 'closed; ' : ''}${number(model.map.spaces[index].area)} m²` };
 }
 
 function show() {
@@ -28,7 +28,7 @@ function show() {
       if (matches.length < MOST) matches.push([title, text, button('Show', () => openCard(kind, index), { 'aria-label': `Show ${kind === 'space' ? title : kind === 'doorway' ? nameOf(thing) : pieceOf(thing)}` })]);
     }
   }
-  const more = total > MOST ? `The first ${MOST} of ${total}: say more to find the rest.` : `${total} found.`;
+  const more = total > MOST ? `The first ${MOST} of ${total}: type more to find the rest.` : `${total} found.`;
   fill(byId('outline-list'), el('p', { class: 'hint', role: 'status', text: more }), grid('What is on the map', ['Which', 'How it is', 'On the map'], matches));
 }
 

@@ -90,6 +90,6 @@ export function keepPending() {
     }
     if (wasKept === isKept) return;
     wasKept = isKept;
-    banner('kept', isKept ? null : 'What waits is too large to outlive a reload of this page: save it, or leave some of it.');
+    banner('kept', isKept ? null : 'What waits is too large to outlive a reload of this page: save it, or drop some of it.');
   });
 }

@@ -117,7 +117,7 @@ function told() {
   return [...model.pending.values()].every((item) => item.wrong) ? [] : [el('p', { class: 'hint', text: 'Looking what would change…' })];
 }
 
-const listItem = (id) => el('li', {}, el('span'), button('Leave it', () => leave(id), { class: 'link' }), button('Change', () => reopen(id, model.pending.get(id)), { class: 'link' }));
+const listItem = (id) => el('li', {}, el('span'), button('Drop it', () => leave(id), { class: 'link' }), button('Change', () => reopen(id, model.pending.get(id)), { class: 'link' }));
 
 // One item stays one element: a button that is replaced while somebody presses it does nothing.
 function listItems() {
@@ -129,7 +129,7 @@ function listItems() {
     change.hidden = !item.shape || item.shape.gone || item.shape.open;
     change.setAttribute('aria-label', `Change: ${item.words}`);
     text.textContent = item.wrong ? isWrong(item) : inOneWord(item);
-    leave.setAttribute('aria-label', `Leave it: ${text.textContent}`);
+    leave.setAttribute('aria-label', `Drop it: ${text.textContent}`);
     leave.hidden = model.pending.size === 1;
   }
   keep(card.typed, [...items.values()]);

@@ -128,7 +128,7 @@ function standing() {
   const note = !model.may('rules') ? [el('p', { class: 'hint', text: 'You may read the rules, not change them.' })]
     : file && !file.own ? [
       el('p', { text: 'This file lies beneath the rules of this site. A rule of this site replaces the one of the same name here.' }),
-      button(names().includes(ownName(open)) ? `Open ${ownName(open)} of this site` : 'Write over it in this site', writeOver, { id: 'write-over', class: 'strong' })]
+      button(names().includes(ownName(open)) ? `Open ${ownName(open)} of this site` : `Begin ${ownName(open)} of this site`, writeOver, { id: 'write-over', class: 'strong' })]
       : draft?.text === null ? [el('p', { text: 'This file is deleted with what is saved next.' }), button('Keep it', () => forget(open), { id: 'rules-keep' })] : [];
   const text = note.map((node) => node.textContent).join();
   if (byId('rules-note').dataset.said !== `${open}${text}`) {

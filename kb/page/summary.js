@@ -29,7 +29,7 @@ function deciding(decides) {
   const line = ({ rule, revises, old, new: now }) => {
     const what = revises ? changing(many, old, now) : old === null ? (now ? `new: decides about ${many(now)}` : 'new: decides about nothing yet')
       : now === null ? `gone: decided about ${many(old)}`
-        : old === now ? `decides about ${many(now)}, others than now` : `decides about ${many(now)}, and about ${old} now`;
+        : old === now ? `decides about ${many(now)}, but other ones than now` : `decides about ${many(now)}; now about ${old}`;
     return el('li', {}, el('q', { text: rule }), ` ${what}`);
   };
   return el('details', { open: decides.length <= 4 }, el('summary', { text: 'Rules that decide otherwise' }), el('ul', { class: 'plain' }, ...decides.map(line)));
@@ -39,7 +39,7 @@ function deciding(decides) {
 function changing(many, old, now) {
   if (old === null) return now ? `new: changes ${many(now)}` : 'new: changes nothing yet';
   if (now === null) return `gone: changed ${many(old)}`;
-  return old === now ? `changes ${many(now)}, to something else than now` : `changes ${many(now)}, and ${old} now`;
+  return old === now ? `changes ${many(now)}, to other values than now` : `changes ${many(now)}; now ${old}`;
 }
 
 /** The counts, in the expert's terms. */

@@ -25,7 +25,7 @@ async function save(name, ending, answer) {
 /** Takes up the rows of a file, in place of those that are there. */
 async function take(name, file, answer) {
   if (file.size > MOST_BYTES) {
-    fill(answer, el('p', { class: 'wrong', text: `${file.name} is larger than ${MOST_BYTES / 1e6} MB, and the page takes no more: whoever runs the service can take it in.` }));
+    fill(answer, el('p', { class: 'wrong', text: `${file.name} is larger than ${MOST_BYTES / 1e6} MB, which is the most that the page takes: whoever runs the service can take it in.` }));
     return;
   }
   let bytes;
@@ -55,7 +55,7 @@ export const outdated = () => [...model.pending.values()].flatMap(({ edits }) =>
 /** What is said of one, and what can be done. */
 export const otherRows = (edit) => el('div', { class: 'conflict' },
   el('p', { class: 'wrong', role: 'alert', text: `${titleOf(edit.table)}: somebody else edited these rows since ${edit.file} was taken. Listed below is what the file changes of them as they are now.` }),
-  el('div', { class: 'line-form' }, button('Leave the file', () => discard(idOf(edit.table)), { class: 'take-theirs' }),
+  el('div', { class: 'line-form' }, button('Drop the file', () => discard(idOf(edit.table)), { class: 'take-theirs' }),
     button('Take it all the same', () => keep(edit), { class: 'set-mine' })));
 
 /** What stands under a table: the way out to a file, and the way in for those who may tune. */

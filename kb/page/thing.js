@@ -64,7 +64,7 @@ export function inWords(kind, hardness, how, passable) {
   if (how) parts.push(action(how));
   if (hardness !== null) parts.push(kind === 'room' ? `hardness ${number(hardness)} a metre` : `hardness ${number(hardness)}`);
   else if (kind === 'room' && !roomsWeigh()) parts.push('its doors say how hard it is');
-  else parts.push('hardness unknown, so no route enters');
+  else parts.push(kind === 'room' ? 'hardness unknown, so no route enters it' : 'hardness unknown, so no route passes it');
   return parts.join(', ');
 }
 

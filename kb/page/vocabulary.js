@@ -18,7 +18,7 @@ function show() {
     return wanted && !has(of) && !fit.length ? [] : [[of, fit]];
   });
   const entry = ([of, properties]) => el('details', { open: Boolean(wanted) && found.length <= 4 }, el('summary', { text: of.text }), word(of), ...properties.map(word));
-  fill(list, ...found.map(entry), found.length ? null : el('p', { class: 'hint', text: 'Nothing is called so.' }));
+  fill(list, ...found.map(entry), found.length ? null : el('p', { class: 'hint', text: 'Nothing is called that.' }));
 }
 
 async function load() {

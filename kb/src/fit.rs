@@ -213,7 +213,7 @@ fn one_measure(rows: &[Traversal], wanted: Option<&str>) -> Result<Option<String
         (Some(wanted), _) if known.contains(&wanted) || known.is_empty() => Ok(Some(wanted.to_owned())),
         (Some(wanted), _) => {
             let help = did_you_mean(wanted, known.iter().copied());
-            let help = help.unwrap_or_else(|| format!("measured were {}", known.join(", ")));
+            let help = help.unwrap_or_else(|| format!("there are measurements of {}", known.join(", ")));
             Err(Error::said(
                 Code::FitUnknownMeasure,
                 format!("nothing is measured in `{wanted}`"),
@@ -223,7 +223,7 @@ fn one_measure(rows: &[Traversal], wanted: Option<&str>) -> Result<Option<String
         (None, [one]) => Ok(Some((*one).to_owned())),
         (None, []) => Ok(None),
         (None, several) => {
-            let message = format!("measured were {}: say which is meant", several.join(", "));
+            let message = format!("there are measurements of {}: say which are meant", several.join(", "));
             Err(Error::said(Code::FitWhichMeasure, message, Some("`--measure seconds`".to_owned())))
         }
     }
@@ -282,9 +282,9 @@ fn scaled(
             let value = estimate.values.get(&state.state).and_then(|value| value.value).unwrap_or(1.0);
             Ok((Some(state.state.clone()), state.hardness / value, Vec::new()))
         }
-        None if rows.is_empty() => Ok((None, 1.0, vec!["there are no traversals yet".to_owned()])),
+        None if rows.is_empty() => Ok((None, 1.0, vec!["there are no measurements yet".to_owned()])),
         None => {
-            let note = "no state can keep its hardness: hardness is the measure a metre".to_owned();
+            let note = "no state can keep its hardness: hardness is what was measured, per metre".to_owned();
             Ok((None, 1.0, vec![note]))
         }
     }

@@ -142,7 +142,11 @@ impl Beneath {
         });
         let failed = failed.collect::<Vec<_>>();
         let more = failed.len().saturating_sub(NAMED);
-        let more = (more > 0).then(|| Finding::note(format!("nor do {more} more tests of {base}")));
+        let more = match more {
+            0 => None,
+            1 => Some(Finding::note(format!("nor does one more test of {base}"))),
+            more => Some(Finding::note(format!("nor do {more} more tests of {base}"))),
+        };
         let trouble = self.trouble.iter().flat_map(Error::problems);
         let trouble = trouble.map(|problem| {
             Finding::note(format!("with these rules the tests of {base} cannot be run: {problem}"))

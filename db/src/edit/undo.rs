@@ -13,7 +13,7 @@ pub async fn undo(connection: &mut SqliteConnection, id: i64, author: &Author) -
     let conflict = |reason: String| Error::Conflict { id, reason };
     let edit = history::entry(connection, id).await?.ok_or_else(|| conflict("no such edit".into()))?;
     if let Some(by) = edit.undone {
-        return Err(conflict(format!("edit {by} did so already")));
+        return Err(conflict(format!("edit {by} has taken it back already")));
     }
     // a value that is what the edit made it may be so again by later ones, each of which then holds on to what this one left
     if let Some(later) = history::later(connection, &edit).await? {

@@ -121,7 +121,7 @@ fn an_undo_never_overwrites_a_later_edit() {
         tx.undo(2, &author())?;
         tx.undo(2, &author())
     });
-    assert!(again.unwrap_err().to_string().contains("edit 3 did so already"));
+    assert!(again.unwrap_err().to_string().contains("edit 3 has taken it back already"));
 }
 
 #[test]

@@ -84,8 +84,11 @@ fn classes(
         while let Some(parent) = chain.last().and_then(|last| named.get(&last.parent)) {
             if chain.iter().any(|class| class.name == parent.name) {
                 let names: Vec<&str> = chain.iter().map(|class| class.name.as_str()).collect();
-                let message =
-                    format!("these classes are of each other: {} -> {}", names.join(" -> "), parent.name);
+                let message = format!(
+                    "these classes are made of each other: {} -> {}",
+                    names.join(" -> "),
+                    parent.name
+                );
                 // Said once, of the first of them.
                 if parent.name == item.name && names.iter().all(|name| **name >= *item.name) {
                     problems.push(item.file.error(Code::Cycle, item.position, message));

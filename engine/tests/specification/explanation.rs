@@ -100,7 +100,7 @@ fn an_object_that_stands_in_the_way_is_not_called_missing() {
     );
     assert_eq!(
         reason("all s in ROBOTS have s.height > t.size"),
-        "rule \"r\" found a `s` that has not what it needs of all"
+        "rule \"r\" found a `s` that lacks what it needs of all"
     );
     assert_eq!(reason("some s in ROBOTS where s.height > 99"), "rule \"r\" found no `s`");
 }

@@ -10,7 +10,7 @@ use adit_planners::pose::Pose;
 use adit_planners::read::{Code, Located, Problem, Text};
 
 use super::cell::{Goal, RobotKind, Target};
-use crate::words::number::number;
+use crate::words::number::{counted, number};
 
 /// No cell is larger: metres from the origin of its frame.
 const LARGEST_M: f64 = 1e4;
@@ -194,7 +194,8 @@ impl Draft<'_> {
                 },
             )
         } else {
-            format!("{what} has {} numbers, and the robot {} joints", at.value.len(), limits.len())
+            let (found, joints) = (counted(at.value.len(), "number"), counted(limits.len(), "joint"));
+            format!("{what} has {found}, and the robot {joints}")
         };
         self.refuse(Code::Impossible, &at.span, message);
         None

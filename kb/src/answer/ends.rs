@@ -115,7 +115,7 @@ impl Basis<'_> {
             let known = graph.rooms.iter().filter_map(|room| state_of(room, robot)).collect::<BTreeSet<_>>();
             let known = || known.iter().copied();
             let help = did_you_mean(state, known()).or_else(|| listed("states", known()));
-            let message = format!("no room of `{robot}` is one of a state `{state}`");
+            let message = format!("`{robot}` has no rooms in a state `{state}`");
             return Err(Error::said(Code::RouteUnknownState, message, help));
         }
         let others = goal.rooms.iter().filter_map(|entry| state_of(&graph[entry.room], robot));

@@ -84,7 +84,7 @@ fn print(fit: &Fit) {
     table(&["cell", "is", "fits best", "95 %", "observations"], rows);
     match &fit.reference {
         Some(state) => line(&format!("{state} keeps its hardness, and the others are in proportion to it")),
-        None => line("hardness is the measure a metre"),
+        None => line("hardness is what was measured, per metre"),
     }
     for note in &fit.notes {
         line(note);

@@ -43,7 +43,9 @@ fn steps(panel: &mut Panel, sheet: &Sheet, found: &Route) {
         }
     }
     if sheet.runs.len() > LISTED {
-        panel.remark(indent, &format!("and {} more changes of action", sheet.runs.len() - LISTED));
+        let more = sheet.runs.len() - LISTED;
+        let changes = if more == 1 { "change" } else { "changes" };
+        panel.remark(indent, &format!("and {more} more {changes} of action"));
     }
     panel.gap();
 }

@@ -291,7 +291,7 @@ pub(super) fn for_longer(tx: &mut Tx<'_>, what: &str, fact: &str) -> Result<Opti
         let other = told.iter().filter(closes_it).find(is_another).filter(|_| last.property == CLOSED);
         return Ok(other.map(|other| {
             format!(
-                "{what} was closed already, by fact {}: it stays closed where this one is taken back",
+                "{what} was closed already, by fact {}: it stays closed when this one is taken back",
                 other.id
             )
         }));
@@ -446,7 +446,7 @@ fn of_map(tx: &mut Tx<'_>, what: &str) -> Result<(&'static str, String)> {
         .or_else(|| did_you_mean(what, known.iter().map(String::as_str)));
     let help = match (meant, known.first()) {
         (Some(help), _) => help,
-        (None, Some(first)) => format!("what can be closed here is called like `{first}`"),
+        (None, Some(first)) => format!("what can be closed here has a name like `{first}`"),
         (None, None) => "nothing of this map can be closed".to_owned(),
     };
     let message = match point {

@@ -64,7 +64,7 @@ pub(super) fn before(site: &KnowledgeBase, Write { file, text, seen }: &Write) -
                 "GET /api/rules says the version of each file",
             ),
             _ => (
-                format!("{file} is another by now: somebody saved it since it was read"),
+                format!("{file} has changed: somebody saved it since it was read"),
                 "read it again, then make the change again",
             ),
         };

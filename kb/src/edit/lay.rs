@@ -105,7 +105,7 @@ fn check_corners(corners: &[[f64; 2]], there: &[Row]) -> Result<()> {
     } else {
         return Ok(());
     };
-    let help = "draw it with fewer corners, or lift what no longer counts".to_owned();
+    let help = "draw it with fewer corners, or take away what no longer counts".to_owned();
     Err(Error::said(Code::LaidCorners, message, Some(help)))
 }
 
@@ -223,7 +223,8 @@ impl Lay {
         let mut further = Map::new();
         for (property, value) in &self.properties {
             if property == "kind" {
-                let message = format!("what `{}` is, is its kind, and no further property", self.name.trim());
+                let message =
+                    format!("the kind of `{}` is not one of its further properties", self.name.trim());
                 let help = "say it by `--kind`".to_owned();
                 return Err(Error::said(Code::LaidUsage, message, Some(help)));
             }

@@ -305,7 +305,7 @@ fn note(problem: &Diagnostic) -> String {
 fn endless(said: &[String]) -> String {
     let last = said.last().map_or_else(String::new, |last| format!("; the last thing that was told: {last}"));
     format!(
-        "rules that react come to no end after {ROUNDS} rounds: what they tell makes planners give other facts{last}"
+        "rules that react do not come to an end in {ROUNDS} rounds: what they tell makes planners give other facts{last}"
     )
 }
 

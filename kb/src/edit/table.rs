@@ -138,7 +138,7 @@ pub(super) fn take(
 fn conflict(tx: &mut Tx<'_>, table: &str) -> Result<Error> {
     let last = tx.history(SEARCHED)?.into_iter().find(|edit| edit.table == table);
     let by = last.map_or_else(String::new, |edit| format!(", edited by {} at {}", edit.who, edit.at));
-    let message = format!("the table {table} is another by now than the file was taken for{by}");
+    let message = format!("the table {table} has changed since the file was taken for it{by}");
     let help =
         "look at what it holds, and at what the file would change of it; then take the file again".to_owned();
     Ok(Error::said(Code::EditConflict, message, Some(help)))
@@ -166,8 +166,10 @@ impl Columns {
                 (0, None) => {}
                 (0, found) => of.others.push((at, found)),
                 (_, None) if column.name != "robot" => {
-                    let message =
-                        format!("it has no column `{}`, which is of the key of `{table}`", column.name);
+                    let message = format!(
+                        "it has no column `{}`, which is a part of the key of `{table}`",
+                        column.name
+                    );
                     return Err(sheet.wrong(None, &message, "each row says which object it is"));
                 }
                 (key, _) => keys.push((key, at)),

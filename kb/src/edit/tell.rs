@@ -332,6 +332,7 @@ fn door(tx: &mut Tx<'_>, name: &str) -> Result<Object> {
     let Some(door) = found else {
         let help = match tx.doors()?.len() {
             0 => "run `adit build` first".to_owned(),
+            1 => "there is one door, door 1; or say a point as x,y".to_owned(),
             all => format!("there are {all} doors, numbered from 1; or say a point as x,y"),
         };
         return Err(Error::said(Code::TellUnknownObject, format!("there is no door `{name}`"), Some(help)));

@@ -6,6 +6,7 @@ use nalgebra::{DMatrix, DVector};
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
 use super::nnls::nnls;
+use crate::words::number::counted;
 
 /// Columns whose part that no other explains is less than this share are not told apart.
 const APART: f64 = 1e-7;
@@ -128,13 +129,14 @@ impl Estimate {
                 let others: Vec<&str> =
                     others.iter().map(String::as_str).filter(|other| other != name).collect();
                 notes.push(format!(
-                    "{name} is not told apart from {}: they are driven in together, in the same proportion",
+                    "{name} cannot be told apart from {}: they are driven in together, in the same proportion",
                     others.join(", ")
                 ));
             }
         }
         if self.observations > 0 && self.quantile.is_none() {
-            notes.push(format!("{} observations are too few for intervals", self.observations));
+            let are = if self.observations == 1 { "is" } else { "are" };
+            notes.push(format!("{} {are} too few for intervals", counted(self.observations, "observation")));
         }
         notes
     }

@@ -70,7 +70,7 @@ fn orphans(tx: &mut Tx<'_>) -> Result<Option<String>> {
         missing.map(|state| format!("{}/{state}", change.robot))
     };
     Ok(listed(changes.iter().filter_map(unknown)).map(|unknown| {
-        format!("changes has rows of states that robots has not: {unknown}; they count for nothing")
+        format!("changes has rows of states that robots does not have: {unknown}; they count for nothing")
     }))
 }
 
@@ -80,7 +80,7 @@ fn carried_by_nobody(tx: &mut Tx<'_>) -> Result<Option<String>> {
     let unknown = loads.into_iter().map(|load| load.robot);
     let unknown = unknown.filter(|robot| !states.iter().any(|state| state.robot == *robot));
     Ok(listed(unknown).map(|unknown| {
-        format!("loads has rows of robots that there are not: {unknown}; they count for nothing")
+        format!("loads has rows of robots that do not exist: {unknown}; they count for nothing")
     }))
 }
 
@@ -115,5 +115,9 @@ fn empty_tunings(tx: &mut Tx<'_>) -> Result<Option<String>> {
     let active = tx.active_tunings()?;
     let is_empty = |name: &&String| !cells.iter().any(|cell| cell.tuning == **name);
     let empty: Vec<String> = active.iter().filter(is_empty).map(|name| format!("`{name}`")).collect();
-    Ok((!empty.is_empty()).then(|| format!("the tuning {} is on and sets nothing", empty.join(" and "))))
+    Ok(match empty.as_slice() {
+        [] => None,
+        [one] => Some(format!("the tuning {one} is on and sets nothing")),
+        several => Some(format!("the tunings {} are on and set nothing", several.join(" and "))),
+    })
 }

@@ -26,7 +26,7 @@ use crate::knowledge::told::Attached;
 use crate::site::{Rooms, lint};
 use crate::state::before::Before;
 use crate::state::{State, Weighed};
-use crate::words::number::number;
+use crate::words::number::{counted, number};
 use crate::words::progress::Stage;
 
 /// How many there are of something, and how many changed.
@@ -543,7 +543,11 @@ pub fn notes(state: &State) -> Vec<String> {
     let unmet = knowledge.unmet(&inputs.rules);
     notes.extend(unmet.iter().take(NOTED).map(ToString::to_string));
     let more = unmet.len().saturating_sub(NOTED);
-    notes.extend((more > 0).then(|| format!("and {more} more cells name rows that are not there")));
+    notes.extend(match more {
+        0 => None,
+        1 => Some("and one more cell names a row that is not there".to_owned()),
+        more => Some(format!("and {more} more cells name rows that are not there")),
+    });
     notes
 }
 
@@ -585,7 +589,7 @@ pub(crate) fn unfit_places(state: &State) -> Vec<String> {
         let whose = if robots.len() > 1 { format!("robot {robot}") } else { "the robot".to_owned() };
         (!names.is_empty()).then(|| {
             let more = if names.len() > NAMED {
-                format!(" and {} more places", names.len() - NAMED)
+                format!(" and {}", counted(names.len() - NAMED, "more place"))
             } else {
                 String::new()
             };
@@ -619,14 +623,14 @@ fn gaps(conclusions: &Conclusions, graph: &SiteGraph, site: &KnowledgeBase) -> V
     let unweighed = graph.rooms.iter().filter(|room| room.hardness.value.is_none() && room.layer.is_some());
     let unweighed = unweighed.filter(is_gap).count();
     if unweighed > 0 {
-        notes.push(format!("{unweighed} rooms have no ROOMS.hardness, so no route enters them"));
+        notes.push(lacking((unweighed, "room"), "ROOMS.hardness", "enters"));
     }
     let undecided = graph.rooms.iter().filter(|room| room.passable.value.is_none()).count();
     if undecided > 0 {
-        notes.push(format!("{undecided} rooms have no ROOMS.passable, so no route enters them"));
+        notes.push(lacking((undecided, "room"), "ROOMS.passable", "enters"));
     }
     let missing = |what: &str, count: usize| {
-        (count > 0).then(|| format!("{count} doors have no DOORS.{what}, so no route passes them"))
+        (count > 0).then(|| lacking((count, "door"), &format!("DOORS.{what}"), "passes"))
     };
     let unweighed =
         graph.doors.iter().filter(|door| door.hardness.value.is_none() && door.passable.value != Some(false));
@@ -634,6 +638,12 @@ fn gaps(conclusions: &Conclusions, graph: &SiteGraph, site: &KnowledgeBase) -> V
     notes.extend(missing("hardness", unweighed.count()));
     notes.extend(missing("passable", undecided.count()));
     notes
+}
+
+/// That objects lack what routes need: `1 room has no ROOMS.hardness, so no route enters it`.
+fn lacking((count, noun): (usize, &str), property: &str, enters: &str) -> String {
+    let (has, it) = if count == 1 { ("has", "it") } else { ("have", "them") };
+    format!("{} {has} no {property}, so no route {enters} {it}", counted(count, noun))
 }
 
 /// What two rules or more disagree about, with what they say of it, and the objects.

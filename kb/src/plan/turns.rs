@@ -68,10 +68,10 @@ impl Turns {
         let unsaid = |what: &str| Arc::from(format!("rules do not say {what} channel {number}, or disagree"));
         let refusal = match (self.passages.truth(1), self.passages.number(0)) {
             (Some(true), Some(weight)) if weight.is_finite() && weight >= 0.0 => return Some(weight),
-            (Some(true), Some(weight)) => {
-                Some(Arc::from(format!("rules weigh channel {number} {weight}, which is no weight")))
-            }
-            (Some(true), None) => Some(unsaid("how heavy is")),
+            (Some(true), Some(weight)) => Some(Arc::from(format!(
+                "rules give channel {number} the weight {weight}; it must be finite and not negative"
+            ))),
+            (Some(true), None) => Some(unsaid("the weight of")),
             (Some(false), _) => self.passages.text(2),
             (None, _) => Some(unsaid("whether one may drive through")),
         };

@@ -17,6 +17,7 @@ use crate::error::{Code, Finding};
 use crate::site::Site;
 use crate::site::base::{self, Base};
 use crate::site::rules;
+use crate::words::number::counted;
 use crate::words::suggest::did_you_mean;
 
 /// Properties that routes and pictures read.
@@ -121,14 +122,15 @@ pub fn doubtful(site: &Site, instead: Option<&Path>, rules: &RuleBase, told: &Fa
 /// Named areas or doors of the world of which no rule speaks, in sentences: they change nothing.
 pub fn unheard(rules: &RuleBase, world: &World) -> Vec<String> {
     let heard = |class: &str| rules.rules().iter().any(|rule| rule.classes().any(|name| name == class));
-    let areas = (world.areas.len(), "named areas", ["AREAS", "AREA_ROOMS"]);
-    let doors = (world.named_doors.len(), "named doors", ["NAMED_DOORS", "DOOR_ROOMS"]);
+    let areas = (world.areas.len(), "named area", ["AREAS", "AREA_ROOMS"]);
+    let doors = (world.named_doors.len(), "named door", ["NAMED_DOORS", "DOOR_ROOMS"]);
     let unheard = [areas, doors]
         .into_iter()
         .filter(|(count, _, classes)| *count > 0 && !classes.iter().any(|class| heard(class)));
     unheard
         .map(|(count, what, [_, rooms])| {
-            format!("the site has {count} {what}, and no rule reads {rooms}: they change nothing")
+            let change = if count == 1 { "it changes" } else { "they change" };
+            format!("the site has {}, and no rule reads {rooms}: {change} nothing", counted(count, what))
         })
         .collect()
 }
@@ -287,7 +289,7 @@ pub fn not_carried_out(
             rule.file(),
             rule.line()
         );
-        let help = "say it with `rule`, or carry it out in a program by KnowledgeBase::react of adit-engine";
+        let help = "say it with `rule`; a program of your own can carry it out, with adit-engine";
         finding(Code::RuleNotCarriedOut, message, Some(help.to_owned()))
             .at(NamedSource::new(text.name(), text.text().to_owned()), span)
     });
@@ -318,15 +320,18 @@ pub fn replaced(rules: &RuleBase) -> Vec<Finding> {
         })
     });
     let same = same.split_first().map(|(first, more)| {
+        let (rule, place) = (&first.rule, place(&first.by));
         let others = match more.len() {
-            0 => String::new(),
-            1 => " and one more".to_owned(),
-            more => format!(" and {more} more"),
+            0 => {
+                return Finding::note(format!(
+                    "\"{rule}\" ({place}) says what the rule beneath it says: without it that one counts, and so do later versions of that one"
+                ));
+            }
+            1 => "one more".to_owned(),
+            more => format!("{more} more"),
         };
-        let place = place(&first.by);
         Finding::note(format!(
-            "\"{}\" ({place}){others} say what the rules beneath them say: without them those count, and better ones after them",
-            first.rule
+            "\"{rule}\" ({place}) and {others} say what the rules beneath them say: without them those count, and so do later versions of those"
         ))
     });
     said.chain(same).collect()

@@ -13,6 +13,7 @@ use zip::ZipArchive;
 
 use crate::error::{Code, Error, Finding, Result};
 use crate::words::cells;
+use crate::words::number::counted;
 
 /// Rows that a sheet of a workbook holds, the names of the columns included.
 const MOST_ROWS: usize = 1_048_576;
@@ -125,7 +126,8 @@ impl Sheet {
         for (at, row) in self.rows.iter().enumerate() {
             if row.len() != self.columns.len() {
                 let (found, expected) = (row.len(), self.columns.len());
-                let message = format!("this row has {found} cells, and there are {expected} columns");
+                let message =
+                    format!("this row has {}, expected {expected}, one a column", counted(found, "cell"));
                 return Err(self.wrong(
                     Some(at),
                     &message,

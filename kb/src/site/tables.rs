@@ -42,7 +42,11 @@ pub fn read(folder: &Path) -> Result<Vec<TableFile>> {
         let table = TableFile::of(&sheet)?;
         if let Some(other) = tables.iter().find(|known| known.name.eq_ignore_ascii_case(&table.name)) {
             let message = format!("this is table `{}`, and so is {}", table.name, other.path.display());
-            return Err(sheet.wrong(None, &message, "take one of both files away, or call it otherwise"));
+            return Err(sheet.wrong(
+                None,
+                &message,
+                "take one of the two files away, or give it another name",
+            ));
         }
         tables.push(table);
     }
@@ -169,7 +173,11 @@ impl TableFile {
         }
         if tx.relations()?.iter().any(|known| known.name.eq_ignore_ascii_case(&self.name)) && !is_there {
             let message = format!("{}: the table {} is one of Adit's own", self.path.display(), self.name);
-            return Err(Error::said(Code::TableTaken, message, Some("call the file otherwise".to_owned())));
+            return Err(Error::said(
+                Code::TableTaken,
+                message,
+                Some("give the file another name".to_owned()),
+            ));
         }
         let replaced = if is_there { Some(tx.read_table(&self.name)?) } else { None };
         let note = replaced.filter(|kept| !self.is_same(kept)).map(|kept| {

@@ -523,6 +523,7 @@ fn stuck(planner: &dyn Planner, missing: &[String]) -> Error {
 fn circle(planner: &dyn Planner) -> Error {
     let message =
         format!("{} never comes to an end: what it gives changes what it is made from", planner.name());
-    let help = "a rule concludes something that this planner works from out of what it gives".to_owned();
+    let help =
+        "from what this planner gives, a rule concludes something that the planner works from".to_owned();
     Error::said(Code::RulesCircle, message, Some(help))
 }

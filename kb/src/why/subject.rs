@@ -160,7 +160,10 @@ fn is_called(class: &str, kind: &str) -> bool {
 fn unknown(fork: &State, class: &str, key: &str) -> Error {
     let graph = fork.graph();
     let help = match class {
-        "doors" => Some(format!("there are {} doors, numbered from 1", graph.doors.len())),
+        "doors" => Some(match graph.doors.len() {
+            1 => "there is one door, door 1".to_owned(),
+            all => format!("there are {all} doors, numbered from 1"),
+        }),
         "rooms" => did_you_mean(key, graph.rooms.iter().map(|room| room.name.as_str())),
         _ => None,
     };

@@ -54,9 +54,9 @@ pub(super) fn read(top: &At<'_>) -> Read<LaneGraph> {
         ));
     }
     if others > 0 {
-        graph
-            .notes
-            .push(format!("{others} features are neither points nor lines, and are no part of the graph"));
+        graph.notes.push(format!(
+            "features that are neither points nor lines, and are no part of the graph: {others}"
+        ));
     }
     if nested > 0 {
         let all = graph.lanes.len();

@@ -70,7 +70,7 @@ fn salt(walls: &Occupancy) -> (Vec<Blob>, Option<String>) {
             let pixels = specks.iter().map(Vec::len).sum::<usize>();
             let note = format!(
                 "{lone} wall pixels, {:.2} % of the floor, stand alone and as evenly as chance strews them: they are taken for \
-                 salt, {pixels} pixels with those of its that touch each other or a wall; `speck_area = 0` keeps all",
+                 salt, {pixels} pixels with those of it that touch each other or a wall; `speck_area = 0` keeps all",
                 share * 100.0
             );
             (specks, Some(note))

@@ -142,11 +142,12 @@ impl<'v> At<'v> {
 
     /// The place of an entry of a list of so many.
     pub fn index(&self, count: usize, of: &str) -> Read<usize> {
-        let number = self.value.as_u64().ok_or_else(|| self.wrong(&format!("the number of a {of}")))?;
+        let number =
+            self.value.as_u64().ok_or_else(|| self.wrong(&format!("the number of one of the {of}")))?;
         if (number as usize) < count {
             return Ok(number as usize);
         }
-        let message = format!("is {number}, and there are {count} of {of}, counted from 0");
+        let message = format!("is {number}, and the number of {of} is {count}, counted from 0");
         Err(self.problem(Code::Impossible, &message))
     }
 

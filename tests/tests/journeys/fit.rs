@@ -124,7 +124,7 @@ fn states_that_are_always_driven_in_the_same_proportion_are_not_guessed() {
     let found = estimate(&[mission(1.0, 0.0), mission(2.0, 5.0), mission(3.0, 1.0), mission(1.0, 9.0)]);
     assert_eq!((found.values["A"].value, found.values["B"].value), (None, None));
     assert!((found.values["C"].value.unwrap() - 2.0).abs() < 1e-9);
-    assert!(found.notes()[0].starts_with("A is not told apart from B"), "{:?}", found.notes());
+    assert!(found.notes()[0].starts_with("A cannot be told apart from B"), "{:?}", found.notes());
 }
 
 const HEAD: &str = "mission,state,distance,measured\n";

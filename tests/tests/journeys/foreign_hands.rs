@@ -153,7 +153,7 @@ fn what_is_written_by_hand_and_counts_for_nothing_is_refused_or_said() {
     site.outside_edit("INSERT INTO active_tunings VALUES ('nigth')");
     site.adit("build", &[]).expecting(0).complains(&[
         "another program wrote rows of rooms and places",
-        "changes has rows of states that robots has not: robot/SQUAT; they count for nothing",
+        "changes has rows of states that robots does not have: robot/SQUAT; they count for nothing",
         "the tuning `nigth` is on and sets nothing",
     ]);
     assert_eq!(site.sqlite3("SELECT count(*) FROM rooms WHERE hardness = 50"), ["0"]);
@@ -164,7 +164,7 @@ fn what_is_written_by_hand_and_counts_for_nothing_is_refused_or_said() {
     site.adit("build", &[]).expecting(0).complains(&[
         "tunings set what nobody tunes",
         "rooms.3.hardness; it counts for nothing",
-        "loads has rows of robots that there are not: robbot; they count for nothing",
+        "loads has rows of robots that do not exist: robbot; they count for nothing",
     ]);
     site.outside_edit("DELETE FROM robots");
     site.adit("build", &[]).expecting(0).complains(&[

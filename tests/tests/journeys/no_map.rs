@@ -94,7 +94,7 @@ fn a_site_with_a_map_takes_tables_too() {
 fn files_that_are_no_tables_are_refused_with_their_place() {
     for (file, text, words) in [
         ("tables/a.csv", "", "it is empty"),
-        ("tables/a.csv", "lamp,watts\nnorth\n", "this row has 1 cells, and there are 2 columns"),
+        ("tables/a.csv", "lamp,watts\nnorth\n", "this row has 1 cell, expected 2"),
         ("tables/a.csv", "lamp,watts\nnorth,1\nnorth,2\n", "two rows are called north"),
         ("tables/a.csv", "lamp,watts\n1,4\n1.0,2\n", "two rows are called 1"),
         ("tables/Products.csv", "product,price\ntea,1\n", "is table `products`, and so is"),

@@ -74,10 +74,7 @@ fn rows_come_and_go_and_what_is_wrong_names_the_row() {
 
     let before = site.sqlite3("SELECT * FROM history");
     for (text, said) in [
-        (
-            table.replacen(rows[0], &format!("{},colour", rows[0]), 1),
-            vec!["orders.csv:2", "cells, and there are"],
-        ),
+        (table.replacen(rows[0], &format!("{},colour", rows[0]), 1), vec!["orders.csv:2", "cells, expected"]),
         (
             table.replacen(rows[0].split(',').nth(1).unwrap(), "colour", 1),
             vec!["orders.csv:1", "no column `colour`"],

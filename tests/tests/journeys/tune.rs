@@ -196,7 +196,7 @@ fn an_undone_edit_takes_those_along_whose_rows_went_with_it() {
     site.adit("tune", &crawl).expect_status(0);
     site.adit("tune", &["changes", "STAND/CRAWL", "--add", "hardness=1"]).expect_status(0);
     site.adit("undo", &["2"]).expect_status(0);
-    site.adit("undo", &["3"]).expecting(2).complains(&["edit 4 did so already"]);
+    site.adit("undo", &["3"]).expecting(2).complains(&["edit 4 has taken it back already"]);
     // brought back, they are in force, and are taken back like any other
     site.adit("undo", &["4"]).expect_status(0);
     assert_eq!(site.sqlite3("SELECT count(*) FROM changes WHERE to_state = 'CRAWL'"), ["1"]);

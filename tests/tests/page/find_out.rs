@@ -24,7 +24,7 @@ async fn a_value_is_found_out_question_by_question() {
     browser.says("#ask-said", "Which colour does order 2 get?").await;
     browser.screenshot("ask").await;
     browser.press("#ask-said", "I do not know").await;
-    browser.says("#ask-said", "orders.2.wrapping is unknown as long as that is not known").await;
+    browser.says("#ask-said", "orders.2.wrapping stays unknown while an answer above is not known").await;
 
     // an answer is changed: what came after it is asked anew
     browser.press("#ask-said", "Change").await;

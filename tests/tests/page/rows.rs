@@ -81,7 +81,7 @@ async fn cells_rows_and_drawings_are_saved_in_one_go_and_taken_back_in_one_click
     browser.says("#preview", "an area “wet floor”").await;
     browser.says("#save", "Save all 3").await;
     // what was drawn stays for another time
-    browser.press("#preview li:last-child", "Leave it").await;
+    browser.press("#preview li:last-child", "Drop it").await;
     browser.says("#save", "Save all 2").await;
     browser.client.refresh().await.unwrap();
     browser.says("#preview", "SQUAT hardness 4 → 3").await;

@@ -228,9 +228,7 @@ fn a_table_goes_out_as_a_file_and_comes_back_as_one_edit() {
     let (status, refused) = take("robots.csv", json!({"text": softer, "version": seen}));
     let message = refused["error"]["message"].as_str().unwrap();
     assert_eq!((status, &refused["error"]["code"]), (409, &json!("edit/conflict")), "{refused}");
-    assert!(
-        message.starts_with("the table robots is another by now than the file was taken for, edited by ")
-    );
+    assert!(message.starts_with("the table robots has changed since the file was taken for it, edited by "));
     assert_eq!(site.sqlite3("SELECT hardness FROM robots WHERE state = 'SQUAT'"), ["3.5"]);
     let (status, _) = take("robots.csv", json!({"text": softer, "version": versions(&service)}));
     assert_eq!(status, 200);

@@ -38,9 +38,9 @@ impl Judge {
         match (self.rules.truth(1), self.rules.number(0)) {
             (Some(true), Some(weight)) if weight.is_finite() && weight >= 0.0 => Ok(weight),
             (Some(true), Some(weight)) => {
-                Err(format!("rules weigh lane {lane} {weight}, which is no weight"))
+                Err(format!("rules give lane {lane} the weight {weight}; it must be finite and not negative"))
             }
-            (Some(true), None) => Err(format!("rules do not say how heavy is lane {lane}, or disagree")),
+            (Some(true), None) => Err(format!("rules do not say what lane {lane} weighs, or disagree")),
             (Some(false), _) => {
                 let refusal = self.rules.text(2).map(|refusal| refusal.to_string());
                 Err(refusal.unwrap_or_else(|| format!("rules let nobody drive on lane {lane}")))

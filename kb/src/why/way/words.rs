@@ -85,6 +85,6 @@ fn within(holds: &Holds, robot: &str) -> String {
         }
         (Some(low), None) => format!("{cell} is above {about}{} (it is {is})", ceil(low)),
         (None, Some(high)) => format!("{cell} is below {about}{} (it is {is})", floor(high)),
-        (None, None) => format!("{cell} is whatever it may be (it is {is})"),
+        (None, None) => format!("{cell} has any value (it is {is})"),
     }
 }

@@ -79,7 +79,7 @@ fn configurations_beyond_the_limits() {
         "[2.09, 2.8]",
         &["`home` has joint 2 at 2.8, outside of its limits -2.7 to 2.7"],
     );
-    scenario("[1.722, -0.463]", "[1.722]", &["goal 1 has 1 numbers, and the robot 2 joints"]);
+    scenario("[1.722, -0.463]", "[1.722]", &["goal 1 has 1 number, and the robot 2 joints"]);
     world("[2.9, -0.9]", "[3.2, -0.9]", &["goal inspect has joint 1 at 3.2"]);
     world("[[-3.1, 3.1], [-2.6, 2.6]]", "[[-3.1, 3.1]]", &["1 joint limits for 2 links"]);
     world("[[-3.1, 3.1]", "[[3.1, -3.1]", &["joint 1 goes from 3.1 to -3.1"]);
@@ -176,7 +176,7 @@ fn taught_paths_that_are_none() {
         ("[[0.1, 0.2]]", "has two configurations at least, and this one 1"),
         ("[[0.1, 0.2],\n [9.0, 0.2]]", "configuration 2 of the path has joint 1 at 9"),
         ("{}", "not a taught path"),
-        ("[[0.1, 0.2], [0.1]]", "configuration 2 of the path has 1 numbers"),
+        ("[[0.1, 0.2], [0.1]]", "configuration 2 of the path has 1 number,"),
     ] {
         folder.write("taught.json", text);
         let ran = learn(&folder, &["load", "--teach", "taught.json"]).expect_status(2);

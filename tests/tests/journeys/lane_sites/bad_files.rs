@@ -69,7 +69,7 @@ fn a_file_that_cannot_be_is_refused_in_a_sentence() {
         (
             "vertex.building.yaml",
             levels("    vertices:\n      - [0, 0, 0, \"\"]\n    lanes:\n      - [0, 9, {}]\n"),
-            vec!["levels.L1.lanes[0][1] is 9, and there are 1 of vertices, counted from 0"],
+            vec!["levels.L1.lanes[0][1] is 9, and the number of vertices is 1, counted from 0"],
         ),
         (
             "typed.building.yaml",
