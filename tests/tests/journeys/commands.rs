@@ -147,7 +147,12 @@ const PAGES: [Page; 25] = [
     Page { file: "manual/src/cells.md", blocks: &[], databases: &[("FROM edges", "cell.db")] },
     Page {
         file: "manual/src/service.md",
-        blocks: &[("\"error\"", Use::Shown), ("\"follower\"", Use::Shown), ("\"together\"", Use::Shown)],
+        blocks: &[
+            ("\"error\"", Use::Shown),
+            ("\"follower\"", Use::Shown),
+            ("\"together\"", Use::Shown),
+            ("\"robots\"", Use::Shown),
+        ],
         databases: &[],
     },
     page("manual/src/packages.md"),
