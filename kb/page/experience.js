@@ -2,13 +2,17 @@
 
 import { call, get, path } from './api.js';
 import { button, byId, el, fill, grid, refill, sure } from './dom.js';
-import { count, number, value } from './format.js';
+import { count, exact, number, value } from './format.js';
 import { model } from './model.js';
 import { said } from './notice.js';
 import { cellId, editCell, keyName } from './pending.js';
 import { onTab } from './router.js';
 
 const EXAMPLE = 'mission,state,distance,measured\n1,STAND,12.5,13.1\n1,SQUAT,1.2,5.0';
+
+/** Of what is fitted; none where there is but one measure. */
+let wanted = '';
+let choices = [];
 
 async function add(text) {
   try {
@@ -41,6 +45,7 @@ function takeButton(cell) {
   const taken = model.pending.has(cellId(cell.table, cell.key, cell.column));
   const old = cellOf(cell);
   if (!known(cell)) return '';
+  if (old === rounded(cell)) return 'is so already';
   if (taken || old === undefined || !model.may('tune')) return taken ? 'taken, not saved' : '';
   return button(`Take ${rounded(cell)}`, () => {
     editCell({ table: cell.table, key: cell.key, column: cell.column, old, value: rounded(cell) });
@@ -48,16 +53,35 @@ function takeButton(cell) {
   }, { 'aria-label': `Take ${rounded(cell)} for ${cell.column} of ${keyName(cell.key)}` });
 }
 
+const measures = async () => [...new Set((await get('/api/traversals')).traversals.map(({ measure }) => measure))].sort();
+
+// Where robots measured several things, one of them is fitted at a time.
+function measureChoice() {
+  if (!wanted) return null;
+  const choice = el('select', { on: { change: () => { wanted = choice.value; return load(); } } }, ...choices.map((name) => el('option', { value: name, text: name, selected: name === wanted })));
+  return el('label', {}, 'By what was measured in ', choice);
+}
+
+/** Whether another measure is fitted from now on. */
+async function isMeasureChosen() {
+  const was = wanted;
+  choices = await measures();
+  wanted = choices.length > 1 ? choices[0] : '';
+  return wanted !== was;
+}
+
 async function load() {
   try {
-    const fit = await get(path('/api/fit', { robot: model.ask.robot }));
-    const rows = fit.cells.map((cell) => [keyName(cell.key), cell.column, value(cell.present), el('b', { text: known(cell) ? number(cell.proposed) : 'cannot be estimated' }), cell.low === null ? '' : `${number(cell.low)} to ${number(cell.high)}`, String(cell.observations ?? ''), takeButton(cell)]);
+    const fit = await get(path('/api/fit', { robot: model.ask.robot, measure: wanted }));
+    const rows = fit.cells.map((cell) => [keyName(cell.key), cell.column, value(cell.present), el('b', { text: known(cell) ? exact(rounded(cell)) : 'cannot be estimated' }), cell.low === null ? '' : `${number(cell.low)} to ${number(cell.high)}`, String(cell.observations ?? ''), takeButton(cell)]);
     const notes = (fit.notes ?? []).map((text) => el('p', { class: 'hint', text }));
     const pending = model.pending.size ? el('p', {}, `${model.pending.size} taken. `, el('a', { href: '#map', text: 'See on the map what they would change, and save' })) : null;
-    refill(byId('fit'), fit.cells.length ? grid('Proposed values', ['of', 'what', 'now', 'proposed', '95 % between', 'from', ''], rows) : el('p', { class: 'hint', text: 'Nothing to propose yet.' }), ...notes, pending);
+    refill(byId('fit'), measureChoice(), fit.cells.length ? grid('Proposed values', ['of', 'what', 'now', 'proposed', '95 % between', 'from', ''], rows) : el('p', { class: 'hint', text: 'Nothing to propose yet.' }), ...notes, pending);
   } catch (error) {
+    const isOther = error.code === 'fit/which-measure' || (wanted && error.code === 'fit/unknown-measure');
+    if (isOther && await isMeasureChosen()) return load();
     fill(byId('fit'), said(error));
-  }
+  }  return undefined;
 }
 
 async function forget() {

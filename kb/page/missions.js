@@ -1,7 +1,7 @@
 /** Missions that were driven: a list, of which one is looked at again. */
 
 import { get, path } from './api.js';
-import { button, byId, el, fill, grid, refill } from './dom.js';
+import { button, byId, el, fill, refill } from './dom.js';
 import { moment, time } from './format.js';
 import { ended, fromTo } from './mission-words.js';
 import { model } from './model.js';
@@ -11,10 +11,11 @@ import { replay } from './replay.js';
 const PAGE = 20;
 let shown = PAGE;
 
-function row(mission) {
+function entry(mission) {
   const { mission: number, robot, seconds, length, at } = mission;
-  const again = button('Look again', () => open(number), { 'aria-label': `Look at mission ${number} again` });
-  return [String(number), robot ?? '', fromTo(mission), ended(mission), `${time(seconds)}, ${length.toFixed(1)} m`, moment(at), again];
+  const again = button('Look again', () => open(number), { class: 'link', 'aria-label': `Look at mission ${number} again` });
+  const whose = robot && model.site.robots.length > 1 ? `${robot} ` : '';
+  return el('li', {}, el('b', { text: `${number}: ${fromTo(mission)}` }), ` ${whose}${ended(mission)} · ${time(seconds)}, ${length.toFixed(1)} m · ${moment(at)} `, again);
 }
 
 async function open(number) {
@@ -31,7 +32,7 @@ async function load() {
     const { missions } = await get(path('/api/missions', { limit: shown + 1 }));
     const more = missions.length > shown ? button('Show earlier ones', () => { shown += PAGE; return load(); }) : null;
     const none = el('p', { class: 'hint', text: 'None is kept yet. A mission that a robot drives by the rules of this site, or a simulated one, can be kept with its journal; it is listed here then, to be looked at again.' });
-    refill(byId('missions'), missions.length ? grid('Missions', ['mission', 'robot', 'way', 'it', 'took', 'kept', ''], missions.slice(0, shown).map(row)) : none, more);
+    refill(byId('missions'), missions.length ? el('ul', { class: 'plain listed' }, ...missions.slice(0, shown).map(entry)) : none, more);
   } catch (error) {
     fill(byId('missions'), said(error));
   }

@@ -4,6 +4,7 @@ import { button, byId, el, fill, shut } from './dom.js';
 import { time } from './format.js';
 import { ended, fromTo } from './mission-words.js';
 import { model } from './model.js';
+import { lookAtMap } from './sheet.js';
 
 const SPEEDS = [1, 4, 16];
 const START_SPEED = 4;
@@ -116,6 +117,7 @@ export function replay(wanted) {
   fill(byId('replay-card'), title, shut('the mission', leave), how, el('div', { class: 'buttons' }, toggle, el('label', {}, 'Shown ', pace)), slider, parts.now, parts.decided, met);
   byId('replay-card').hidden = false;
   show();
+  lookAtMap();
   byId('replay-card').scrollIntoView({ block: 'nearest' });
   title.focus();
 }

@@ -9,6 +9,8 @@ import { model } from './model.js';
 import { isOpen } from './router.js';
 
 const OFTEN_MS = 1000;
+/** So many are listed; all are on the map. */
+const MOST = 100;
 /** Where nobody said yet where it is. */
 const SELDOM_MS = 4000;
 
@@ -56,7 +58,8 @@ function entry(robot) {
 function show() {
   const { robots } = model;
   byId('robots-card').hidden = !robots.length;
-  const list = el('ul', { class: 'plain' }, ...robots.map(entry));
+  const more = robots.length - MOST;
+  const list = el('ul', { class: 'plain listed' }, ...robots.slice(0, MOST).map(entry), more > 0 ? el('li', { class: 'hint', text: `and ${more} more` }) : null);
   const text = list.textContent + model.lookedAt;
   if (text === written) return;
   written = text;

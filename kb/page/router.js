@@ -39,8 +39,11 @@ function open() {
   if (!wanted) return;
   for (const section of document.querySelectorAll('[data-tab]')) section.hidden = section !== wanted;
   for (const link of document.querySelectorAll('nav a')) {
-    if (link.getAttribute('href') === `#${wanted.dataset.tab}`) link.setAttribute('aria-current', 'page');
+    const isOpened = link.getAttribute('href') === `#${wanted.dataset.tab}`;
+    if (isOpened) link.setAttribute('aria-current', 'page');
     else link.removeAttribute('aria-current');
+    // On a phone not all of them are in sight.
+    if (isOpened) link.scrollIntoView({ block: 'nearest', inline: 'nearest' });
   }
   shown.get(wanted.dataset.tab)?.(params);
 }

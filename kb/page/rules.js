@@ -67,15 +67,19 @@ function jump(problem) {
   pane.go(problem.line, problem.column);
 }
 
+/** The rule base in which a file beneath lies: `rooms/by-state` of `rooms/by-state/tests/doors.toml`. */
+const baseOf = (name) => (isOwn(name) ? '' : name.replace(/(\/tests)?\/[^/]*$/u, ''));
+
 function list() {
   const entry = (name) => {
     const draft = draftOf(name);
     const state = !draft ? '' : draft.text === null ? ' – to be deleted' : draft.version === null ? ' – new' : ' – edited';
-    return el('li', {}, button(`${name}`, () => openFile(name), { class: `link${draft ? ' draft' : ''}${draft?.text === null ? ' going' : ''}`, 'aria-current': name === open ? 'true' : null }), state ? el('span', { class: 'hint', text: state }) : null);
+    return el('li', {}, button(isOwn(name) ? name : name.slice(baseOf(name).length + 1), () => openFile(name), { class: `link${draft ? ' draft' : ''}${draft?.text === null ? ' going' : ''}`, 'aria-label': isOwn(name) ? null : name, 'aria-current': name === open ? 'true' : null }), state ? el('span', { class: 'hint', text: state }) : null);
   };
   const part = (title, own, test) => {
     const found = names().filter((name) => isOwn(name) === own && isTest(name) === test).sort();
-    return found.length ? [el('h2', { text: title }), el('ul', { class: 'plain' }, ...found.map(entry))] : [];
+    const bases = [...new Set(found.map(baseOf))];
+    return bases.flatMap((base) => [el('h2', { text: base ? `${title}: ${base}` : title }), el('ul', { class: 'plain' }, ...found.filter((name) => baseOf(name) === base).map(entry))]);
   };
   fill(byId('rules-files'), ...part('Rules of this site', true, false), ...part('Their tests', true, true),
     ...part('Rules beneath', false, false), ...part('Tests beneath', false, true));

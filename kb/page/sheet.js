@@ -25,7 +25,10 @@ function pull(up) {
 }
 
 // What waits and what was saved are seen with the sheet down, too.
-const isAlwaysSeen = (node) => Boolean(node.closest('#saved, .tray'));
+const isAlwaysSeen = (node) => Boolean(node.closest('#saved, .tray, #replay-card'));
+
+/** What is looked at is on the map. */
+export const lookAtMap = () => pull(false);
 
 function follow() {
   let pressed = -PRESS_MS;

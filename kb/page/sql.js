@@ -3,7 +3,7 @@
 import { call, get, path, post } from './api.js';
 import { button, byId, copy, download, el, fill, form, grid, sure } from './dom.js';
 import { editor } from './editor.js';
-import { exact } from './format.js';
+import { exact, number } from './format.js';
 import { by } from './history-words.js';
 import { model } from './model.js';
 import { said } from './notice.js';
@@ -22,7 +22,7 @@ async function run() {
   fill(byId('sql-answer'), el('p', { class: 'hint', text: 'Asking…' }));
   try {
     const answer = await post('/api/sql', { query });
-    const note = `${answer.rows.length} row${answer.rows.length === 1 ? '' : 's'} in ${exact(answer.took_ms)} ms, generation ${answer.generation}`;
+    const note = `${answer.rows.length} row${answer.rows.length === 1 ? '' : 's'} in ${number(answer.took_ms)} ms, generation ${answer.generation}`;
     fill(byId('sql-answer'),
       el('p', { role: 'status', class: answer.truncated ? 'wrong' : 'hint', text: answer.truncated ? `${note}. There are more: these are the first; LIMIT and OFFSET show the others.` : note }),
       grid('Answer', answer.columns, answer.rows.map((row) => row.map((cell) => (cell === null ? '' : exact(cell)))), { class: 'rows' }),

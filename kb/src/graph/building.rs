@@ -4,7 +4,7 @@ use adit_db::Tx;
 use adit_db::layer::AreaOutline;
 use adit_db::space::{Doorway, Space};
 use adit_db::told::Standing;
-use adit_planners::geometry::{Point, Segment, polygon};
+use adit_planners::geometry::{Point, Rect, Segment, polygon};
 
 use super::one_way::OneWay;
 use crate::error::Result;
@@ -243,8 +243,10 @@ impl Building {
                 break;
             }
             let Some(sides) = self.sides_of(space.space) else { continue };
+            let bounds = Rect::around(sides.iter().map(|side| side.a));
             missing.retain(|&index| {
-                let holds = polygon::encloses(sides.iter().copied(), points[index]);
+                let point = points[index];
+                let holds = bounds.contains(point) && polygon::encloses(sides.iter().copied(), point);
                 if holds {
                     found[index] = Some(space);
                 }

@@ -7,14 +7,14 @@ use adit_tests::browser::{Browser, Screen};
 use adit_tests::service::Service;
 use serde_json::Value;
 
-fn axe() -> String {
+pub fn axe() -> String {
     let exe = std::env::current_exe().unwrap();
     let file: PathBuf = exe.ancestors().nth(3).unwrap().join("axe/node_modules/axe-core/axe.min.js");
     std::fs::read_to_string(file).expect("axe-core is installed (tests/run installs it)")
 }
 
 /// Violations of impact serious or critical: rule and elements.
-async fn violations(browser: &Browser, axe: &str) -> Vec<String> {
+pub async fn violations(browser: &Browser, axe: &str) -> Vec<String> {
     let script = format!(
         "const done = arguments[arguments.length - 1]; {axe}; \
          window.axe.run(document, {{ resultTypes: ['violations'] }}).then((r) => done(r.violations \

@@ -8,6 +8,7 @@ use adit_tests::browser::{Browser, Screen};
 use adit_tests::service::Service;
 use serde_json::{Value, json};
 
+use crate::accessible::{axe, violations};
 use crate::at_a_desk;
 
 fn is_at(service: &Service, x: f64, y: f64) {
@@ -101,7 +102,7 @@ async fn look_again(screen: Screen) {
     browser.until("document.querySelector('#canvas').dataset.generation", "the map is there").await;
     keys(&browser, "#missions-card summary", ENTER).await;
     browser.says("#missions", "arrived").await;
-    keys(&browser, "#missions button", ENTER).await;
+    keys(&browser, "#missions li button", ENTER).await;
     browser.says("#replay-card h2", "Mission 1: ").await;
     let start = mark(&browser, ".replayed").await;
     keys(&browser, "#replay-card input", END).await;
@@ -128,6 +129,12 @@ async fn look_again(screen: Screen) {
     assert!(apart(mark(&browser, ".replayed").await, paused) < 0.01);
     browser.says("#replay-card", "What it does: ").await;
     browser.screenshot("replay").await;
+    is_at(&service, 20.0, 8.0);
+    browser.says("#robots", "cart-1").await;
+    for theme in ["light", "dark"] {
+        browser.run(&format!("document.documentElement.dataset.theme = '{theme}'")).await;
+        assert_eq!(violations(&browser, &axe()).await, Vec::<String>::new(), "{theme}");
+    }
     keys(&browser, "#replay-card .shut", ENTER).await;
     browser.until("!document.querySelector('#marks .replayed') && document.activeElement.matches('#missions-card summary')", "it is put away").await;
 }
