@@ -3,6 +3,7 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+use adit_site::{Trouble, say};
 use serde_json::json;
 
 use crate::planner::Planner;
@@ -16,7 +17,7 @@ const STILL: Duration = Duration::from_secs(5);
 /// Says where the robot is, for as long as anybody knows.
 pub async fn follow(planner: Arc<Planner>) {
     let mut ticks = tokio::time::interval(TICK);
-    let mut said = None;
+    let (mut said, mut is_refused) = (None, false);
     loop {
         ticks.tick().await;
         let Ok(pose) = planner.robot() else { continue };
@@ -30,9 +31,14 @@ pub async fn follow(planner: Arc<Planner>) {
         if let Some(kind) = &planner.settings.robot {
             robot["robot"] = kind.as_str().into();
         }
-        // where nobody hears it, it is said again in a moment; what is refused is of no use to the robot
-        if planner.site.post("/api/whereabouts", &json!({"robots": [robot]})).await.is_ok() {
-            said = Some((pose, Instant::now()));
+        match planner.site.post("/api/whereabouts", &json!({"robots": [robot]})).await {
+            // where nobody hears it, it is said again in a moment
+            Err(Trouble::Away(_)) => continue,
+            Err(Trouble::Refused { words, .. }) if !std::mem::replace(&mut is_refused, true) => {
+                say(&format!("people do not see where the robot is: {words}"));
+            }
+            Err(_) | Ok(_) => {}
         }
+        said = Some((pose, Instant::now()));
     }
 }

@@ -1,13 +1,16 @@
 //! Where vehicles are, said to the site for people who look on.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
+use adit_site::say;
 use serde_json::json;
 use tokio::task::JoinHandle;
 
 use crate::driver::Whereabout;
-use crate::site::Site;
+use crate::site::{Site, Trouble};
 
 /// How often it is said of a vehicle that stands still that it is still there.
 const STILL: Duration = Duration::from_secs(5);
@@ -18,6 +21,8 @@ pub struct Seen {
     said: BTreeMap<String, (Whereabout, Instant)>,
     /// One message after the other: a slow service is not asked more and more.
     talks: Option<JoinHandle<()>>,
+    /// Whether it was said that the site does not take it.
+    is_refused: Arc<AtomicBool>,
 }
 
 /// Robots that one message may speak of.
@@ -39,9 +44,15 @@ impl Seen {
         }
         let robots: Vec<&Whereabout> = news.iter().map(|(_, now)| now).collect();
         let body = json!({"robots": robots});
-        let site = site.clone();
+        let (site, is_refused) = (site.clone(), Arc::clone(&self.is_refused));
         // where nobody hears it, it is said again in a moment
-        self.talks = Some(tokio::spawn(async move { drop(site.post("/api/whereabouts", &body).await) }));
+        self.talks = Some(tokio::spawn(async move {
+            if let Err(Trouble::Refused { words, .. }) = site.post("/api/whereabouts", &body).await
+                && !is_refused.swap(true, Ordering::Relaxed)
+            {
+                say(&format!("people do not see where vehicles are: {words}"));
+            }
+        }));
         let now = Instant::now();
         self.said.extend(news.into_iter().map(|(name, at)| (name, (at, now))));
     }
