@@ -197,7 +197,7 @@ fn a_door_that_a_navigation_graph_only_names_is_closed_by_name() {
 fn a_vehicle_that_is_blocked_closes_the_lane_ahead_of_it() {
     let site = site_of(&world("racks.lif.json"));
     let built = site.adit("build", &[]).expecting(0);
-    built.complains(&["limits of speed count for nothing", "vehicle_types forklift speed"]);
+    built.complains(&["limits of speed count for nothing", "row `forklift`, column `speed`"]);
     let closed = || site.sqlite3("SELECT key FROM told WHERE class = 'LANES' AND property = 'closed'");
     // three lanes meet at 6,0: one ends there, one goes on, one turns off
     site.adit("close", &["6,0@0"]).expecting(0).complains(&["6,0@0 is at lane gate, and that is closed"]);
