@@ -13,7 +13,7 @@ let shown = PAGE;
 
 function entry(mission) {
   const { mission: number, robot, seconds, length, at } = mission;
-  const again = button('Look again', () => open(number), { class: 'link', 'aria-label': `Look at mission ${number} again` });
+  const again = button('Look again', () => open(number), { class: 'link', 'aria-label': `Look again at mission ${number}` });
   const whose = robot && model.site.robots.length > 1 ? `${robot} ` : '';
   return el('li', {}, el('b', { text: `${number}: ${fromTo(mission)}` }), ` ${whose}${ended(mission)} · ${time(seconds)}, ${length.toFixed(1)} m · ${moment(at)} `, again);
 }
