@@ -131,7 +131,6 @@ impl Fleet {
     /// What is written of the vehicles is not true for long now.
     async fn leave(&mut self) {
         self.follows.clear();
-        self.seen.leave(&self.site).await;
         for (_, writer) in std::mem::take(&mut self.writers) {
             let _ = writer.await;
         }
@@ -150,6 +149,7 @@ impl Fleet {
                 say(&format!("rows of vehicles cannot be written: {trouble}"));
             }
         }
+        self.seen.leave(&self.site).await;
     }
 
     async fn hear(&mut self, hears: &mut UnboundedReceiver<Heard>) {

@@ -112,7 +112,7 @@ impl Whereabouts {
         let mut nameless = Vec::new();
         for one in following {
             match one.name.clone() {
-                // of several streams of one robot the last that was told something
+                // of several streams of one robot the one that said last from where
                 Some(name) => match named.get(&name) {
                     Some(other) if other.moved > one.moved => {}
                     _ => drop(named.insert(name, one)),
