@@ -1,5 +1,6 @@
 //! Missions as they were driven, entry by entry.
 
+use serde::Serialize;
 use sqlx::SqliteConnection;
 
 use super::{Decided, Entry};
@@ -8,7 +9,8 @@ use crate::transaction::Tx;
 use crate::worlds::are_kept;
 
 /// A mission without its journal.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, utoipa::ToSchema)]
+#[schema(as = KeptMission)]
 pub struct Kept {
     /// The name of its world.
     pub world: String,
@@ -16,13 +18,13 @@ pub struct Kept {
     pub mission: i64,
     /// Which robot drove, if that is kept.
     pub robot: Option<String>,
-    /// The rule base.
+    /// The rule base that decided.
     pub rules: String,
     /// Where it began, metres.
     pub start: [f64; 2],
     /// Where it led, metres.
     pub goal: [f64; 2],
-    /// A row of `endings`.
+    /// A row of `endings`: `arrived`, `no_way`, `lost`, `silent` or `gave_up`.
     pub ending: String,
     /// What the ending means, in words.
     pub meaning: String,

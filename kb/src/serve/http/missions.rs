@@ -31,46 +31,20 @@ pub struct MissionsAnswer {
 /// A mission that was kept (`adit simulate SITE --keep`, `adit drive SITE --keep`).
 #[derive(Serialize, ToSchema)]
 struct Driven {
-    mission: i64,
-    /// Which robot drove, if that is kept.
-    robot: Option<String>,
-    /// The rule base that decided.
-    rules: String,
-    /// Metres.
-    start: [f64; 2],
-    /// Metres.
-    goal: [f64; 2],
+    #[serde(flatten)]
+    kept: Kept,
     /// The spaces in which it began and ended, as the map is now.
     spaces: [Option<String>; 2],
-    /// `arrived`, `no_way`, `lost`, `silent` or `gave_up`.
-    ending: String,
-    /// What that means.
-    meaning: String,
-    /// Metres that the robot went.
-    length: f64,
-    /// By the robot's clock.
-    seconds: f64,
-    /// When it was kept, in UTC.
-    at: String,
 }
 
 impl Driven {
-    fn of(kept: Kept, view: &View) -> Self {
+    fn all(kept: Vec<Kept>, view: &View) -> Vec<Self> {
         let building = &view.graph().building;
-        let space = |[x, y]: [f64; 2]| building.space(building.space_at(Point::new(x, y))?.space);
-        Self {
-            spaces: [space(kept.start), space(kept.goal)],
-            mission: kept.mission,
-            robot: kept.robot,
-            rules: kept.rules,
-            start: kept.start,
-            goal: kept.goal,
-            ending: kept.ending,
-            meaning: kept.meaning,
-            length: kept.length,
-            seconds: kept.seconds,
-            at: kept.at,
-        }
+        let ends = kept.iter().flat_map(|of| [of.start, of.goal]).map(|[x, y]| Point::new(x, y));
+        let spaces = building.spaces_at(&ends.collect::<Vec<_>>()).into_iter();
+        let mut names = spaces.map(|space| building.space(space?.space));
+        let mut next = || names.next().flatten();
+        kept.into_iter().map(|kept| Self { kept, spaces: [next(), next()] }).collect()
     }
 }
 
@@ -83,7 +57,7 @@ pub async fn list(site: Site, Asked(part): Asked<Part>) -> Answered<Json<Mission
     let seen = site.view.load_full();
     let answer = site.read(move |tx| {
         let kept = tx.missions(&seen.view.site().site().name, limit)?;
-        Ok(MissionsAnswer { missions: kept.into_iter().map(|kept| Driven::of(kept, &seen.view)).collect() })
+        Ok(MissionsAnswer { missions: Driven::all(kept, &seen.view) })
     });
     answer.await.map(Json)
 }
@@ -159,11 +133,11 @@ pub async fn journal(site: Site, Named(number): Named<i64>) -> Answered<Json<Mis
     let seen = site.view.load_full();
     let answer = site.read(move |tx| {
         let world = &seen.view.site().site().name;
-        let (kept, entries) = tx.replay(world, number)?.ok_or_else(|| {
-            Error::said(Code::MissionUnknown, format!("{world} has no mission {number}"), None)
-        })?;
+        let unknown = || Error::said(Code::MissionUnknown, format!("{world} has no mission {number}"), None);
+        let (kept, entries) = tx.replay(world, number)?.ok_or_else(unknown)?;
+        let mission = Driven::all(vec![kept], &seen.view).pop().ok_or_else(unknown)?;
         let journal = entries.into_iter().map(Happened::of).collect();
-        Ok(MissionAnswer { mission: Driven::of(kept, &seen.view), journal })
+        Ok(MissionAnswer { mission, journal })
     });
     answer.await.map(Json)
 }
