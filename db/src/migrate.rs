@@ -96,6 +96,7 @@ pub(crate) const STEPS: &[Step] = &[
     Step { all: &[], worlds: &[include_str!("../sql/v21/10-robots.sql")] },
     Step::of_all(&[include_str!("../sql/v22/10-derived.sql")]),
     Step::of_all(&[include_str!("../sql/v23/10-laid-bridges.sql")]),
+    Step::of_all(&[include_str!("../sql/v24/10-map-routes.sql")]),
 ];
 
 /// The newest schema version.
