@@ -3,7 +3,6 @@
 mod kinds;
 mod told;
 
-use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
 
 use kinds::Declared;
@@ -14,7 +13,7 @@ use crate::plan::plan;
 use crate::rule::{Action, Rule};
 use crate::rule_base::{RuleBase, on_deep_stack};
 use crate::schema::Schema;
-use crate::symbols::Symbols;
+use crate::symbols::Lexicon;
 use crate::told::NamesTold;
 use crate::value::Type;
 
@@ -26,7 +25,7 @@ impl RuleBase {
 }
 
 fn check(base: &RuleBase, schema: &Schema) -> Vec<Diagnostic> {
-    let symbols = RefCell::new(Symbols::default());
+    let symbols = Lexicon::default();
     let told = NamesTold::of(&base.rules);
     let mut known = Declared { schema, concluded: BTreeMap::new(), told: BTreeMap::new() };
     for name in base.concluded() {

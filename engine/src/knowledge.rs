@@ -23,10 +23,10 @@ mod reshape;
 mod revise;
 mod undo;
 pub(crate) mod unmet;
+mod voices;
 mod why;
 mod why_not;
 
-use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -37,7 +37,7 @@ use crate::column::Column;
 use crate::rule::PropertyName;
 use crate::schema::Schema;
 use crate::script::limits::Limits;
-use crate::symbols::Symbols;
+use crate::symbols::Lexicon;
 use crate::value::{Cell, Type, Value};
 use derived::Derived;
 use network::Network;
@@ -51,7 +51,7 @@ use pending::{Held, Pending};
 /// a cost by what depends on it.
 #[derive(Debug, Default)]
 pub struct KnowledgeBase {
-    symbols: RefCell<Symbols>,
+    symbols: Lexicon,
     held: BTreeMap<String, Held>,
     derived: BTreeMap<PropertyName, Derived>,
     agenda: Agenda,
@@ -141,12 +141,12 @@ impl KnowledgeBase {
     /// The key of an object as text: the values of the key properties joined with `/`.
     pub fn key(&self, class: &str, row: usize) -> Option<String> {
         let table = &self.held.get(class)?.table;
-        (row < table.len).then(|| table.key_text(row, &self.symbols.borrow()))
+        (row < table.len).then(|| table.key_text(row, &self.symbols.read()))
     }
 
     /// The row of the object with this key. Looks through the class.
     pub fn row(&self, class: &str, key: &str) -> Option<usize> {
-        self.held.get(class)?.table.row(key, &self.symbols.borrow())
+        self.held.get(class)?.table.row(key, &self.symbols.read())
     }
 
     /// One value, told or concluded; `None` if it is unknown, or there is no such object or property.
@@ -157,7 +157,7 @@ impl KnowledgeBase {
     /// As [`value`](Self::value), by the object's row from 0.
     pub fn value_at(&self, class: &str, row: usize, property: &str) -> Option<Value> {
         let column = self.column(&PropertyName::new(class, property))?;
-        value(column.cell(row), &self.symbols.borrow())
+        value(column.cell(row), &self.symbols.read())
     }
 
     /// The type of a property's values; `None` where nobody has told or concluded any.
@@ -170,7 +170,7 @@ impl KnowledgeBase {
         let Some(column) = self.column(&PropertyName::new(class, property)) else {
             return vec![None; rows.len()];
         };
-        let symbols = self.symbols.borrow();
+        let symbols = self.symbols.read();
         rows.iter().map(|row| value(column.cell(*row as usize), &symbols)).collect()
     }
 
@@ -188,7 +188,7 @@ impl KnowledgeBase {
     pub fn texts(&self, class: &str, property: &str) -> Option<Vec<Option<Arc<str>>>> {
         match self.column(&PropertyName::new(class, property))? {
             Column::Texts(values) => {
-                let symbols = self.symbols.borrow();
+                let symbols = self.symbols.read();
                 Some(values.iter().map(|&symbol| symbols.text(symbol).cloned()).collect())
             }
             _ => None,
@@ -226,6 +226,6 @@ impl KnowledgeBase {
     }
 
     fn host_value(&self, cell: Cell) -> Option<Value> {
-        value(cell, &self.symbols.borrow())
+        value(cell, &self.symbols.read())
     }
 }

@@ -22,7 +22,7 @@ use crate::column::Column;
 use crate::diagnostic::Diagnostic;
 use crate::rule::Rule;
 use crate::script::interpreter::runner;
-use crate::symbols::Symbols;
+use crate::symbols::Lexicon;
 
 /// Bindings that are looked at together: small enough that a batch stays in the cache.
 pub(crate) const BATCH: usize = 1024;
@@ -37,7 +37,7 @@ pub(crate) struct Stopped;
 pub(crate) struct Machine<'a> {
     pub(crate) rule: &'a Rule,
     pub(crate) columns: Vec<&'a Column>,
-    pub(crate) symbols: &'a RefCell<Symbols>,
+    pub(crate) symbols: &'a Lexicon,
     pub(crate) runner: &'a Engine,
     pub(crate) deadline: Instant,
     /// The first failure of an interpreted part, and how many there were.
@@ -54,7 +54,7 @@ impl<'a> Machine<'a> {
     pub(crate) fn new(
         rule: &'a Rule,
         columns: Vec<&'a Column>,
-        symbols: &'a RefCell<Symbols>,
+        symbols: &'a Lexicon,
         deadline: Instant,
         goes_on: bool,
     ) -> Self {

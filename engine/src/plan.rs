@@ -14,11 +14,9 @@ pub(crate) mod seeded;
 mod table;
 pub(crate) mod uses;
 
-use std::cell::RefCell;
-
 use crate::diagnostic::Diagnostic;
 use crate::rule::{PropertyName, Rule};
-use crate::symbols::Symbols;
+use crate::symbols::Lexicon;
 use crate::value::Type;
 use clause::ClausePlan;
 pub(crate) use effect::Effect;
@@ -36,11 +34,7 @@ pub(crate) struct Plan {
 }
 
 /// Compiles a rule, or tells everything that is wrong with its names and types.
-pub(crate) fn plan(
-    rule: &Rule,
-    kinds: &dyn Kinds,
-    symbols: &RefCell<Symbols>,
-) -> Result<Plan, Vec<Diagnostic>> {
+pub(crate) fn plan(rule: &Rule, kinds: &dyn Kinds, symbols: &Lexicon) -> Result<Plan, Vec<Diagnostic>> {
     let mut lowering = Lowering::new(rule, kinds, symbols);
     let clauses = clause::clauses(&mut lowering);
     lowering.enter(None);

@@ -1,7 +1,7 @@
 //! Texts are kept once and compared by number.
 
 use std::collections::HashMap;
-use std::sync::Arc;
+use std::sync::{Arc, PoisonError, RwLock, RwLockReadGuard, RwLockWriteGuard};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub(crate) struct Symbol(u32);
@@ -20,6 +20,32 @@ pub(crate) struct Symbols {
     // copies share them until one learns a new text
     texts: Arc<Vec<Arc<str>>>,
     ids: Arc<HashMap<Arc<str>, u32>>,
+}
+
+/// The texts of one knowledge base, which any number of threads may look up.
+#[derive(Debug, Default)]
+pub(crate) struct Lexicon(RwLock<Symbols>);
+
+impl Lexicon {
+    pub(crate) fn read(&self) -> RwLockReadGuard<'_, Symbols> {
+        self.0.read().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// To learn texts while rules run, which is on one thread.
+    pub(crate) fn write(&self) -> RwLockWriteGuard<'_, Symbols> {
+        self.0.write().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// To learn texts where nobody else can look.
+    pub(crate) fn get_mut(&mut self) -> &mut Symbols {
+        self.0.get_mut().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl Clone for Lexicon {
+    fn clone(&self) -> Self {
+        Self(RwLock::new(self.read().clone()))
+    }
 }
 
 impl Symbols {

@@ -13,13 +13,13 @@ use crate::machine::{Machine, Stopped};
 use crate::plan::Kinds;
 use crate::rule_base::RuleBase;
 use crate::script::syntax::Quantifier;
-use crate::symbols::Symbols;
+use crate::symbols::Lexicon;
 
 pub(crate) struct Outside<'o> {
     pub(crate) rules: &'o RuleBase,
     pub(crate) facts: &'o dyn Facts,
     pub(crate) kinds: Box<dyn Kinds + 'o>,
-    pub(crate) symbols: &'o RefCell<Symbols>,
+    pub(crate) symbols: &'o Lexicon,
     pub(crate) deadline: Instant,
     pub(crate) matches: usize,
     /// By rule: what is wrong with it, or failed in a condition.

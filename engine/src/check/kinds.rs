@@ -1,13 +1,12 @@
 //! What is known of the properties that rules name.
 
-use std::cell::RefCell;
 use std::collections::BTreeMap;
 
 use crate::plan::{Key, Kind, Kinds};
 use crate::rule::PropertyName;
 use crate::rule_base::RuleBase;
 use crate::schema::Schema;
-use crate::symbols::Symbols;
+use crate::symbols::Lexicon;
 use crate::value::Type;
 
 /// The properties of a schema, and those that rules conclude.
@@ -19,7 +18,7 @@ pub(super) struct Declared<'s> {
 
 impl Declared<'_> {
     /// The types of what rules tell, as far as they can be seen.
-    pub(super) fn tell_kinds(&mut self, base: &RuleBase, symbols: &RefCell<Symbols>) {
+    pub(super) fn tell_kinds(&mut self, base: &RuleBase, symbols: &Lexicon) {
         for rule in &base.rules {
             let Some(action) = rule.reaction() else { continue };
             for (name, kind, _) in crate::plan::reaction::told(rule, action, self, symbols) {

@@ -1,7 +1,5 @@
 //! Declarations against the classes that there are.
 
-use std::cell::RefCell;
-
 use rhai::Position;
 
 use super::build::object_rule;
@@ -10,7 +8,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::plan::{Effect, Kind, Kinds, plan};
 use crate::rule::{FileScope, PropertyName};
 use crate::schema::Schema;
-use crate::symbols::Symbols;
+use crate::symbols::Lexicon;
 use crate::value::Type;
 
 pub(crate) fn check(
@@ -18,7 +16,7 @@ pub(crate) fn check(
     schema: &Schema,
     kinds: &dyn Kinds,
 ) -> (Vec<(PropertyName, Type)>, Vec<Diagnostic>) {
-    let symbols = RefCell::new(Symbols::default());
+    let symbols = Lexicon::default();
     let (mut types, mut problems) = (vec![], vec![]);
     for (name, class) in &declared.classes {
         if schema.has(name) {

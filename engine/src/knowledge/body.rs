@@ -116,7 +116,7 @@ impl KnowledgeBase {
         columns: &[usize],
         ids: &[u32],
     ) -> Vec<BTreeMap<String, Dynamic>> {
-        let symbols = self.symbols.borrow();
+        let symbols = self.symbols.read();
         let mut known = vec![BTreeMap::new(); rule.clauses.len()];
         for object in body.objects.values() {
             for (property, source) in &object.properties {

@@ -174,7 +174,7 @@ impl Consultation {
 
     pub fn text(&self, output: usize) -> Option<Arc<str>> {
         if let Cell::Text(symbol) = self.answers[output] {
-            self.base.symbols.borrow().text(symbol).cloned()
+            self.base.symbols.read().text(symbol).cloned()
         } else {
             None
         }
@@ -182,11 +182,11 @@ impl Consultation {
 
     pub fn is(&self, output: usize, text: &str) -> bool {
         matches!(self.answers[output], Cell::Text(symbol)
-            if self.base.symbols.borrow().text(symbol).is_some_and(|known| **known == *text))
+            if self.base.symbols.read().text(symbol).is_some_and(|known| **known == *text))
     }
 
     pub fn value(&self, output: usize) -> Option<Value> {
-        value(self.answers[output], &self.base.symbols.borrow())
+        value(self.answers[output], &self.base.symbols.read())
     }
 
     /// What an inference reports of the last object: conflicts, gaps, what failed.
@@ -219,7 +219,7 @@ impl Consultation {
     fn infer(&mut self) {
         let Some(object) = self.untold.take() else { return };
         for (name, cell) in self.inputs.iter().zip(&object) {
-            let told = value(*cell, &self.base.symbols.borrow());
+            let told = value(*cell, &self.base.symbols.read());
             // A value of another type is unknown, as it is to rules that run directly.
             if self.base.tell_row(&self.class, 0, name, told).is_err() {
                 self.base.tell_row(&self.class, 0, name, None).ok();

@@ -51,7 +51,7 @@ impl KnowledgeBase {
         property: &str,
         value: Option<Value>,
     ) -> Result<(), FactError> {
-        let row = self.told_class(class)?.table.row(key, &self.symbols.borrow());
+        let row = self.told_class(class)?.table.row(key, &self.symbols.read());
         self.tell_row(class, row.ok_or_else(|| FactError::no_object(class, &key))?, property, value)
     }
 
@@ -94,7 +94,7 @@ impl KnowledgeBase {
         }
         Arc::make_mut(column).set(row, cell);
         if value.is_some() && !self.network.not_known.is_empty() {
-            let key = held.table.key_text(row, &self.symbols.borrow());
+            let key = held.table.key_text(row, &self.symbols.read());
             self.network.not_known.remove(&(PropertyName::new(class, property), key));
         }
         if !before.same(cell) {
@@ -147,7 +147,7 @@ impl KnowledgeBase {
             }
             row[at] = cell;
         }
-        table.check_new(&row, &self.symbols.borrow())?;
+        table.check_new(&row, &self.symbols.read())?;
         for (property, cell) in &new {
             if let Some(kind) = cell.kind() {
                 self.may_widen(class, property, kind, None)?;
@@ -173,7 +173,7 @@ impl KnowledgeBase {
 
     /// Removes the object with this key; those after it move up.
     pub fn remove(&mut self, class: &str, key: &str) -> Result<(), FactError> {
-        let row = self.told_class(class)?.table.row(key, &self.symbols.borrow());
+        let row = self.told_class(class)?.table.row(key, &self.symbols.read());
         self.remove_row(class, row.ok_or_else(|| FactError::no_object(class, &key))?)
     }
 

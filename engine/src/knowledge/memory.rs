@@ -132,17 +132,14 @@ impl Memory {
         self.inverse[given] = Some(Inverse { starts, firings });
     }
 
-    /// The firings that set this row, ascending.
-    pub(crate) fn firings_of(&self, given: usize, row: u32) -> impl Iterator<Item = u32> {
-        let is_own = self.sets_own(&self.given[given]);
-        let own = Some(row).filter(|&row| is_own && self.given[given].is_written(row as usize));
-        let others = match &self.inverse[given] {
-            Some(Inverse { starts, firings }) if !is_own && (row as usize) + 1 < starts.len() => {
+    /// The firings that set this row, ascending, where each object is not set by the firing of its own number.
+    pub(crate) fn firings_of(&self, given: usize, row: u32) -> &[u32] {
+        match &self.inverse[given] {
+            Some(Inverse { starts, firings }) if (row as usize) + 1 < starts.len() => {
                 &firings[starts[row as usize] as usize..starts[row as usize + 1] as usize]
             }
             _ => &[],
-        };
-        own.into_iter().chain(others.iter().copied())
+        }
     }
 
     /// Takes over what an evaluation gave for some objects of the first clause; tells for each of `given` which

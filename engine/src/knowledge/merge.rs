@@ -7,24 +7,11 @@ use super::KnowledgeBase;
 use super::conclude::Run;
 use super::derived::{Derived, Heard, heard};
 use super::dirty::Dirty;
-use super::memory::Memory;
+use super::voices::{Source, Voice};
 use crate::column::Column;
 use crate::machine::output::Buffer;
 use crate::rule::PropertyName;
-use crate::value::{Cell, Type};
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Source {
-    Nobody,
-    Told,
-    /// A rule, by number, in one of its firings. What it gives may be unknown.
-    Rule {
-        rule: usize,
-        firing: usize,
-    },
-    /// Rules of one priority that disagree.
-    Dispute,
-}
+use crate::value::Type;
 
 impl KnowledgeBase {
     pub(super) fn merge(&mut self, run: &mut Run, name: &PropertyName) {
@@ -149,8 +136,10 @@ impl KnowledgeBase {
             }
             None => {
                 let mut column = Column::unknown(before.kind(), before.len());
+                let voices = self.voices(name, derived);
+                let kind = column.kind();
                 for row in 0..column.len() as u32 {
-                    let (cell, source) = self.resolve(name, derived, row, column.kind());
+                    let (cell, source) = voices.resolve(row, kind);
                     column.set(row as usize, cell);
                     if source == Source::Dispute {
                         derived.disputes.insert(row);
@@ -201,24 +190,19 @@ impl KnowledgeBase {
         if derived.hypothesis || self.told_column(name).is_some() {
             return None;
         }
-        let mut sides: Vec<(i64, &Memory, usize)> = vec![];
-        for writer in &derived.writers {
-            let Some(memory) = &self.network.nodes[writer.rule].memory else { continue };
-            for (at, given) in memory.given.iter().enumerate().filter(|(_, given)| given.name == *name) {
-                if !memory.sets_own(given) {
-                    return None;
-                }
-                sides.push((writer.priority, memory, at));
-            }
+        let voices = self.rules_of(name, derived.writers.iter().copied());
+        if voices.iter().any(|voice| !voice.is_own) {
+            return None;
         }
         let kind = before.kind();
         let mut column = Column::unknown(kind, before.len());
         let mut disputes = BTreeSet::new();
         for row in 0..before.len() {
-            let said = |&(priority, memory, at): &(i64, &Memory, usize)| {
-                (priority, memory.claim(at, row).filter(|cell| cell.kind() == Some(kind)))
+            let said = |voice: &Voice| {
+                let claim = voice.memory.claim(voice.at, row);
+                (voice.priority, claim.filter(|cell| cell.kind() == Some(kind)))
             };
-            match heard(sides.iter().map(said)) {
+            match heard(voices.iter().map(said)) {
                 Heard::Value(cell) => {
                     column.set(row, cell);
                 }
@@ -236,9 +220,10 @@ impl KnowledgeBase {
             return self.merge_all(name, derived);
         }
         let mut changed = Dirty::None;
-        let len = derived.stages[0].len();
+        let (len, kind) = (derived.stages[0].len(), derived.stages[0].kind());
+        let voices = self.voices(name, derived);
         for &row in rows.iter().filter(|&&row| (row as usize) < len) {
-            let (cell, source) = self.resolve(name, derived, row, derived.stages[0].kind());
+            let (cell, source) = voices.resolve(row, kind);
             if source == Source::Dispute {
                 derived.disputes.insert(row);
             } else {
@@ -250,85 +235,5 @@ impl KnowledgeBase {
             }
         }
         changed
-    }
-
-    pub(super) fn resolve(
-        &self,
-        name: &PropertyName,
-        derived: &Derived,
-        row: u32,
-        kind: Type,
-    ) -> (Cell, Source) {
-        let told = self.told_column(name).map_or(Cell::Unknown, |column| column.cell(row as usize));
-        if told != Cell::Unknown && !derived.rules_first {
-            return (told, Source::Told);
-        }
-        if derived.hypothesis {
-            return self.proved(name, derived, row);
-        }
-        let concluded = self.concluded(name, derived, row, kind);
-        if concluded.0 == Cell::Unknown && concluded.1 != Source::Dispute && told != Cell::Unknown {
-            return (told, Source::Told);
-        }
-        concluded
-    }
-
-    fn concluded(&self, name: &PropertyName, derived: &Derived, row: u32, kind: Type) -> (Cell, Source) {
-        let mut chosen = (Cell::Unknown, Source::Nobody);
-        let mut priority = None;
-        for writer in &derived.writers {
-            if chosen.0 != Cell::Unknown && priority.is_some_and(|priority| writer.priority < priority) {
-                break;
-            }
-            for (cell, firing) in self.claims(name, writer.rule, row) {
-                let source = Source::Rule { rule: writer.rule, firing };
-                if cell == Cell::Unknown || cell.kind() != Some(kind) {
-                    // It says nothing, but the rule did apply: that explains the gap.
-                    if chosen.1 == Source::Nobody && cell == Cell::Unknown {
-                        chosen.1 = source;
-                    }
-                } else if chosen.0 == Cell::Unknown {
-                    chosen = (cell, source);
-                    priority = Some(writer.priority);
-                } else if chosen.0 != cell {
-                    return (Cell::Unknown, Source::Dispute);
-                }
-            }
-        }
-        chosen
-    }
-
-    /// A hypothesis: true if one rule proves it, false if all refute it.
-    fn proved(&self, name: &PropertyName, derived: &Derived, row: u32) -> (Cell, Source) {
-        let mut chosen = (Cell::Unknown, Source::Nobody);
-        for writer in &derived.writers {
-            for (cell, firing) in self.claims(name, writer.rule, row) {
-                let source = Source::Rule { rule: writer.rule, firing };
-                match (cell, chosen) {
-                    (Cell::Truth(true), _) => return (cell, source),
-                    (_, (_, Source::Nobody)) | (Cell::Unknown, (Cell::Truth(false), _)) => {
-                        chosen = (cell, source);
-                    }
-                    _ => {}
-                }
-            }
-        }
-        chosen
-    }
-
-    /// What a rule says of one object, with the firings that say it.
-    pub(super) fn claims(
-        &self,
-        name: &PropertyName,
-        rule: usize,
-        row: u32,
-    ) -> impl Iterator<Item = (Cell, usize)> {
-        self.network.nodes[rule].memory.iter().flat_map(move |memory| {
-            let given = memory.given.iter().enumerate().filter(|(_, given)| given.name == *name);
-            given.flat_map(move |(at, _)| {
-                let firings = memory.firings_of(at, row).map(|firing| firing as usize);
-                firings.filter_map(move |firing| Some((memory.claim(at, firing)?, firing)))
-            })
-        })
     }
 }

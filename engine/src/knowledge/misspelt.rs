@@ -44,7 +44,7 @@ impl KnowledgeBase {
             rules.concluded().into_iter().chain(told.properties.keys()).collect();
         let mut held: BTreeMap<String, BTreeSet<Symbol>> = BTreeMap::new();
         let mut found = vec![];
-        let symbols = self.symbols.borrow();
+        let symbols = self.symbols.read();
         for rule in &rules.rules {
             for (name, text) in rule.compared_texts() {
                 if given.contains(&name) {

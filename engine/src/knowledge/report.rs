@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use super::KnowledgeBase;
 use super::derived::Derived;
-use super::merge::Source;
+use super::voices::{Source, Voices};
 use crate::conclusions::{Conclusions, Conflict, Gap, LeftOut, Reason, Waiting};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::machine::output::{Buffer, Status};
@@ -140,16 +140,16 @@ impl KnowledgeBase {
         let mut values: Vec<(String, crate::value::Value)> = vec![];
         let mut seen: Vec<Cell> = vec![];
         let mut priority = None;
-        for writer in &derived.writers {
-            if priority.is_some_and(|priority| writer.priority < priority) {
+        for voice in self.rules_of(name, derived.writers.iter().copied()) {
+            if priority.is_some_and(|priority| voice.priority < priority) {
                 break;
             }
-            for (cell, _) in self.claims(name, writer.rule, row) {
+            for (cell, _) in voice.claims(row) {
                 if cell.kind() == Some(derived.stages[0].kind()) && !seen.contains(&cell) {
                     seen.push(cell);
-                    priority = Some(writer.priority);
+                    priority = Some(voice.priority);
                     values.extend(
-                        self.host_value(cell).map(|value| (base.rules[writer.rule].name.clone(), value)),
+                        self.host_value(cell).map(|value| (base.rules[voice.rule].name.clone(), value)),
                     );
                 }
             }
@@ -166,14 +166,21 @@ impl KnowledgeBase {
             return None;
         }
         let mut reasons: BTreeMap<Reason, usize> = BTreeMap::new();
+        let voices = self.voices(name, derived);
         for &row in &rows {
-            *reasons.entry(self.reason(base, name, derived, row)).or_default() += 1;
+            *reasons.entry(self.reason(base, name, (derived, &voices), row)).or_default() += 1;
         }
         Some(Gap { property: name.clone(), rows, reasons: reasons.into_iter().collect() })
     }
 
-    fn reason(&self, base: &RuleBase, name: &PropertyName, derived: &Derived, row: u32) -> Reason {
-        match self.resolve(name, derived, row, derived.stages[0].kind()).1 {
+    fn reason(
+        &self,
+        base: &RuleBase,
+        name: &PropertyName,
+        (derived, voices): (&Derived, &Voices<'_>),
+        row: u32,
+    ) -> Reason {
+        match voices.resolve(row, derived.stages[0].kind()).1 {
             Source::Dispute => return Reason::Conflict,
             Source::Rule { rule, .. } => return Reason::Unknown { rule: base.rules[rule].name.clone() },
             Source::Nobody | Source::Told => {}

@@ -5,7 +5,9 @@ use std::sync::Arc;
 
 use super::KnowledgeBase;
 use super::conclude::Run;
+use super::derived::Writer;
 use super::dirty::Dirty;
+use super::voices::Voice;
 use crate::column::Column;
 use crate::machine::lane::NO_ROW;
 use crate::rule::{Action, PropertyName};
@@ -31,14 +33,20 @@ impl KnowledgeBase {
         let rules = derived.levels[stage - 1].1.clone();
         self.index(name, &rules);
         let mut changed = Dirty::None;
+        let revising = |&rule: &usize| match run.base.rules[rule].action {
+            Action::Revise { operator, .. } => {
+                Some((operator, self.rules_of(name, [Writer { rule, priority: level }])))
+            }
+            _ => None,
+        };
+        let revising: Vec<_> = rules.iter().filter_map(revising).collect();
         for row in pending.rows(len) {
             let (mut value, before) = match (&*derived.stages[stage - 1], &*derived.stages[stage]) {
                 (Column::Numbers(below), Column::Numbers(now)) => (below[row as usize], now[row as usize]),
                 _ => continue,
             };
-            for &rule in &rules {
-                let Action::Revise { operator, .. } = run.base.rules[rule].action else { continue };
-                for (amount, _) in self.contributions(run.base, name, rule, row) {
+            for (operator, voices) in &revising {
+                for (amount, _) in self.contributions(run.base, voices, row) {
                     value = operator.apply(value, amount.unwrap_or(f64::NAN));
                 }
             }
@@ -56,18 +64,17 @@ impl KnowledgeBase {
         self.derived.insert(name.clone(), derived);
     }
 
-    /// What a revision contributes to one object, with its firings, in an order that rests on keys alone: equal facts
+    /// What a rule that revises contributes to one object, with its firings, in an order that rests on keys alone: equal facts
     /// give equal bits, however rows are ordered.
     pub(super) fn contributions(
         &self,
         base: &RuleBase,
-        name: &PropertyName,
-        rule: usize,
+        voices: &[Voice<'_>],
         row: u32,
     ) -> Vec<(Option<f64>, usize)> {
-        let mut claims: Vec<(Cell, usize)> = self.claims(name, rule, row).collect();
+        let mut claims: Vec<(Cell, usize)> = voices.iter().flat_map(|voice| voice.claims(row)).collect();
         if claims.len() > 1
-            && let Some(memory) = &self.network.nodes[rule].memory
+            && let Some(&Voice { rule, memory, .. }) = voices.first()
         {
             let clauses = &base.rules[rule].clauses;
             claims.sort_by(|&(_, a), &(_, b)| {
@@ -87,7 +94,7 @@ impl KnowledgeBase {
         let Some(held) = self.held.get(class).filter(|_| a != NO_ROW && b != NO_ROW) else {
             return a.cmp(&b);
         };
-        let symbols = self.symbols.borrow();
+        let symbols = self.symbols.read();
         let by_key = held.table.key.iter().fold(Ordering::Equal, |order, &column| {
             let column = &held.table.columns[column];
             order.then_with(|| match (column.cell(a as usize), column.cell(b as usize)) {

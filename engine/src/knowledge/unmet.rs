@@ -36,7 +36,7 @@ impl KnowledgeBase {
     /// The cells that are told and name an object of another class (`property ORDERS.customer names CUSTOMERS`) that is not
     /// there. Classes with a condition are not looked at: who is of them follows from rules.
     pub fn unmet(&self, rules: &RuleBase) -> Vec<Unmet> {
-        let symbols = self.symbols.borrow();
+        let symbols = self.symbols.read();
         let mut found = vec![];
         for (name, link) in &rules.declared.links {
             let (Some(from), Some(to)) = (self.held.get(&name.class), self.held.get(&link.class)) else {

@@ -3,8 +3,8 @@
 use std::collections::{BTreeMap, HashMap};
 
 use super::KnowledgeBase;
-use super::derived::Derived;
-use super::merge::Source;
+use super::derived::{Derived, Writer};
+use super::voices::{Source, Voice};
 use crate::conclusions::{Grounds, Justification, Justifications, Origin, Revision, Support, Witness};
 use crate::machine::lane::NO_ROW;
 use crate::rule::{Action, PropertyName, Rule};
@@ -28,23 +28,19 @@ impl KnowledgeBase {
         let Some(derived) = self.known_derived(&name) else {
             return value.is_some().then(|| told(value));
         };
-        let origin = match self.source(&name, derived, row as u32) {
+        let voices = self.voices(&name, derived);
+        let origin = match voices.resolve(row as u32, derived.stages[0].kind()).1 {
             Source::Nobody => return None,
             Source::Told => Origin::Told,
             Source::Rule { rule, firing } => Origin::Rule(self.support(rules, rule, firing)?),
             Source::Dispute => {
-                let (rule, firing) = derived.writers.iter().find_map(|writer| {
-                    Some((writer.rule, self.claims(&name, writer.rule, row as u32).next()?.1))
-                })?;
+                let said = |voice: &Voice| Some((voice.rule, voice.claims(row as u32).next()?.1));
+                let (rule, firing) = voices.rules.iter().find_map(said)?;
                 Origin::Rule(self.support(rules, rule, firing)?)
             }
         };
         let revisions = self.revisions(rules, &name, derived, row as u32);
         Some(Justification { property: name, key, value, origin, revisions })
-    }
-
-    fn source(&self, name: &PropertyName, derived: &Derived, row: u32) -> Source {
-        self.resolve(name, derived, row, derived.stages[0].kind()).1
     }
 
     /// For a property that rules conclude: the rule behind each object's value.
@@ -58,7 +54,8 @@ impl KnowledgeBase {
             .filter_map(|writer| of(writer.rule).map(|node| (node.name.clone(), node.version.clone())))
             .collect();
         let merged = &derived.stages[0];
-        let writer = |row: usize| match self.source(&name, derived, row as u32) {
+        let voices = self.voices(&name, derived);
+        let writer = |row: usize| match voices.resolve(row as u32, merged.kind()).1 {
             Source::Rule { rule, .. } if !merged.is_unknown(row) => derived
                 .writers
                 .iter()
@@ -83,8 +80,11 @@ impl KnowledgeBase {
         let mut different = Vec::new();
         let mut here = Grounds { rule: 0, witnesses: Vec::new() };
         let mut named: BTreeMap<usize, Vec<bool>> = BTreeMap::new();
-        let place = |&row: &u32| match self.source(&name, derived, row) {
-            Source::Rule { rule, firing } if !derived.stages[0].is_unknown(row as usize) => {
+        // rows beside each other mostly share theirs
+        let mut last = 0;
+        let (voices, merged) = (self.voices(&name, derived), &derived.stages[0]);
+        let place = |&row: &u32| match voices.resolve(row, merged.kind()).1 {
+            Source::Rule { rule, firing } if !merged.is_unknown(row as usize) => {
                 let memory = self.network.nodes.get(rule)?.memory.as_ref()?;
                 let named = named.entry(rule).or_insert_with(|| self.named(rule));
                 let is_named = |clause: usize| named.get(clause) == Some(&true);
@@ -94,12 +94,13 @@ impl KnowledgeBase {
                 here.rule = rule;
                 here.witnesses.clear();
                 here.witnesses.extend((1..memory.witnesses.len()).map(bound));
-                if let Some(place) = places.get(&here) {
-                    return Some(*place);
+                if different.get(last) != Some(&here) {
+                    last = *places.entry(here.clone()).or_insert_with(|| {
+                        different.push(here.clone());
+                        different.len() - 1
+                    });
                 }
-                different.push(here.clone());
-                places.insert(here.clone(), different.len() - 1);
-                Some(different.len() - 1)
+                Some(last)
             }
             _ => None,
         };
@@ -158,7 +159,8 @@ impl KnowledgeBase {
         for (level, revisers) in &derived.levels {
             for &number in revisers {
                 let Action::Revise { operator, .. } = rules.rules[number].action else { continue };
-                for (amount, firing) in self.contributions(rules, name, number, row) {
+                let voices = self.rules_of(name, [Writer { rule: number, priority: *level }]);
+                for (amount, firing) in self.contributions(rules, &voices, row) {
                     if let Some(support) = self.support(rules, number, firing) {
                         revisions.push(Revision { level: *level, operator, amount, support });
                     }

@@ -1,7 +1,6 @@
 //! Evaluates nodes over a batch.
 
 use std::borrow::Cow;
-use std::cell::RefCell;
 use std::cmp::Ordering;
 
 use super::Machine;
@@ -9,7 +8,7 @@ use super::lane::{Frame, Lane, Rows, Values};
 use crate::column::Column;
 use crate::plan::clause::ClausePlan;
 use crate::plan::node::{Arithmetic, Comparison, Function, Node};
-use crate::symbols::{Symbol, Symbols};
+use crate::symbols::{Lexicon, Symbol};
 use crate::value::{Cell, Truth, Type};
 use crate::zero::{negated, product, written};
 
@@ -137,7 +136,7 @@ impl Machine<'_> {
             Comparison::Equal => a.zip(b, |a, b| known(a, b, a == b)),
             Comparison::Unequal => a.zip(b, |a, b| known(a, b, a != b)),
             _ => {
-                let symbols = self.symbols.borrow();
+                let symbols = self.symbols.read();
                 a.zip(b, |a, b| known(a, b, holds(comparison, symbols.text(a).cmp(&symbols.text(b)))))
             }
         }
@@ -145,7 +144,7 @@ impl Machine<'_> {
 }
 
 /// Compares two values; those of different types, and the unknown, compare to nothing.
-pub(crate) fn compare_cells(comparison: Comparison, a: Cell, b: Cell, symbols: &RefCell<Symbols>) -> Truth {
+pub(crate) fn compare_cells(comparison: Comparison, a: Cell, b: Cell, symbols: &Lexicon) -> Truth {
     match (a, b) {
         (Cell::Number(a), Cell::Number(b)) => {
             a.partial_cmp(&b).map_or(Truth::Unknown, |order| holds(comparison, order).into())
@@ -154,7 +153,7 @@ pub(crate) fn compare_cells(comparison: Comparison, a: Cell, b: Cell, symbols: &
             Comparison::Equal => (a == b).into(),
             Comparison::Unequal => (a != b).into(),
             _ => {
-                let symbols = symbols.borrow();
+                let symbols = symbols.read();
                 holds(comparison, symbols.text(a).cmp(&symbols.text(b))).into()
             }
         },
@@ -164,8 +163,8 @@ pub(crate) fn compare_cells(comparison: Comparison, a: Cell, b: Cell, symbols: &
 }
 
 /// Texts and numbers one after the other; `None` where one is unknown, or the whole is too long.
-pub(crate) fn concat(a: Cell, b: Cell, symbols: &RefCell<Symbols>) -> Option<Symbol> {
-    let mut symbols = symbols.borrow_mut();
+pub(crate) fn concat(a: Cell, b: Cell, symbols: &Lexicon) -> Option<Symbol> {
+    let mut symbols = symbols.write();
     let mut whole = String::new();
     for cell in [a, b] {
         match cell {

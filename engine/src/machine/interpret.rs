@@ -111,12 +111,12 @@ impl Machine<'_> {
     }
 
     fn dynamic(&self, cell: Cell) -> Option<Dynamic> {
-        dynamic(cell, &self.symbols.borrow())
+        dynamic(cell, &self.symbols.read())
     }
 
     fn cell(&self, value: &Dynamic, fragment: &Fragment) -> Cell {
         match plain(value) {
-            Ok(value) => value.map_or(Cell::Unknown, |value| self.symbols.borrow_mut().cell(&value)),
+            Ok(value) => value.map_or(Cell::Unknown, |value| self.symbols.write().cell(&value)),
             Err(kind) => {
                 let message =
                     format!("rule \"{}\": a property cannot hold a value of type {kind}", self.rule.name);

@@ -1,18 +1,16 @@
 //! Evaluates nodes for one object, with the meaning that [`Machine`](super::Machine) has for batches.
 
-use std::cell::RefCell;
-
 use super::evaluate::{apply, compare_cells, compute, concat};
 use crate::plan::action::Step;
 use crate::plan::node::Node;
-use crate::symbols::{Symbol, Symbols};
+use crate::symbols::{Lexicon, Symbol};
 use crate::value::{Cell, Truth};
 
 pub(crate) struct Object<'a> {
     /// For each column of a plan the property.
     pub(crate) columns: &'a [usize],
     pub(crate) cells: &'a [Cell],
-    pub(crate) symbols: &'a RefCell<Symbols>,
+    pub(crate) symbols: &'a Lexicon,
 }
 
 /// Evaluates nodes of one object; `slots` is what an action has written so far.

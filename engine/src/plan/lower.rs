@@ -1,6 +1,5 @@
 //! From rhai's expression trees to typed nodes.
 
-use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
@@ -12,7 +11,7 @@ use super::node::{Comparison, Node};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::rule::{Clause, FileScope, PropertyName, Rule};
 use crate::script::names::{Names, Patterns, property_of};
-use crate::symbols::{Symbol, Symbols};
+use crate::symbols::{Lexicon, Symbol};
 use crate::value::{Type, Value};
 
 /// A node and the type that it gives; `None` is a type that only running tells.
@@ -38,7 +37,7 @@ pub(crate) struct Lowering<'r> {
     pub(crate) kinds: &'r dyn Kinds,
     /// The file of the expressions that are lowered: its constants and functions count.
     pub(crate) file: Arc<FileScope>,
-    pub(super) symbols: &'r RefCell<Symbols>,
+    pub(super) symbols: &'r Lexicon,
     columns: Vec<PropertyName>,
     problems: Vec<Diagnostic>,
     /// Pattern variables by the number of their clause; nameless where they are not in scope.
@@ -52,7 +51,7 @@ pub(crate) struct Lowering<'r> {
 }
 
 impl<'r> Lowering<'r> {
-    pub(crate) fn new(rule: &'r Rule, kinds: &'r dyn Kinds, symbols: &'r RefCell<Symbols>) -> Self {
+    pub(crate) fn new(rule: &'r Rule, kinds: &'r dyn Kinds, symbols: &'r Lexicon) -> Self {
         Self {
             rule,
             kinds,
@@ -330,7 +329,7 @@ impl<'r> Lowering<'r> {
     }
 
     pub(crate) fn intern(&self, text: &str) -> Symbol {
-        self.symbols.borrow_mut().intern(text)
+        self.symbols.write().intern(text)
     }
 
     fn interpreted(&mut self, expr: &Expr) -> Result<Typed, Stop> {

@@ -1,7 +1,5 @@
 //! The body of an `on` rule, made ready for the interpreter.
 
-use std::cell::RefCell;
-
 use rhai::{Expr, Position, Stmt};
 
 use super::fragment::Fragment;
@@ -10,7 +8,7 @@ use super::lower::Lowering;
 use super::node::Node;
 use crate::rule::{PropertyName, Reaction, Rule};
 use crate::script::names::{Names, Patterns};
-use crate::symbols::Symbols;
+use crate::symbols::Lexicon;
 use crate::value::Type;
 
 /// What an `on` rule runs; `None` where it cannot be run, which is on the list of problems.
@@ -31,7 +29,7 @@ pub(crate) fn told(
     rule: &Rule,
     reaction: &Reaction,
     kinds: &dyn Kinds,
-    symbols: &RefCell<Symbols>,
+    symbols: &Lexicon,
 ) -> Vec<(PropertyName, Option<Type>, Position)> {
     let kind = |value: &Expr| {
         // What cannot be typed here, since a `let` is in it, is no mistake.

@@ -17,6 +17,18 @@ fn number(facts: &str) -> i64 {
     (u64::from_be_bytes(first) >> 1) as i64
 }
 
+/// Facts that rules chose, by number.
+#[derive(Debug, Default)]
+pub struct Facts(BTreeMap<i64, String>);
+
+impl Facts {
+    fn number(&mut self, facts: String) -> i64 {
+        let number = number(&facts);
+        self.0.insert(number, facts);
+        number
+    }
+}
+
 /// Finds reasons, and keeps the facts behind those that were asked for.
 pub struct Reasons<'a> {
     knowledge: &'a Inference,
@@ -35,14 +47,14 @@ impl<'a> Reasons<'a> {
         self.facts
     }
 
-    fn number(&mut self, facts: String) -> i64 {
-        let number = number(&facts);
-        self.facts.insert(number, facts);
-        number
+    /// Keeps facts that were found.
+    pub fn keep(&mut self, facts: Facts) {
+        self.facts.extend(facts.0);
     }
 
-    /// The reasons for a property of the objects in these rows.
-    pub fn of_rows(&mut self, class: &str, property: &str, rows: &[u32]) -> Vec<Reason> {
+    /// The reasons for a property of the objects in these rows, and the facts that they name.
+    pub fn of_rows(&self, class: &str, property: &str, rows: &[u32]) -> (Vec<Reason>, Facts) {
+        let mut found = Facts::default();
         let revisions = self.revisions(class, property);
         let (different, places) = self.knowledge.grounds(class, property, rows);
         let mut seen: Vec<Option<Option<i64>>> = vec![None; different.len()];
@@ -50,7 +62,7 @@ impl<'a> Reasons<'a> {
         for (row, place) in rows.iter().zip(places) {
             let Some(place) = place else {
                 // A value that was told, and that rules revised: it rests on the last of them.
-                reasons.push(revisions.get(row).map_or((None, None), |by| self.revision(by)));
+                reasons.push(revisions.get(row).map_or((None, None), |by| self.revision(by, &mut found)));
                 continue;
             };
             let grounds = &different[place];
@@ -58,7 +70,7 @@ impl<'a> Reasons<'a> {
             let witness = match seen[place] {
                 Some(witness) if revised_by.is_none() => witness,
                 _ => {
-                    let witness = self.facts(grounds, revised_by).map(|facts| self.number(facts));
+                    let witness = self.facts(grounds, revised_by).map(|facts| found.number(facts));
                     if revised_by.is_none() {
                         seen[place] = Some(witness);
                     }
@@ -67,13 +79,13 @@ impl<'a> Reasons<'a> {
             };
             reasons.push((Some(grounds.rule as i64 + 1), witness));
         }
-        reasons
+        (reasons, found)
     }
 
-    fn revision(&mut self, revised_by: &[&str]) -> Reason {
+    fn revision(&self, revised_by: &[&str], found: &mut Facts) -> Reason {
         let last = self.rules.rules().iter().position(|rule| Some(&rule.name()) == revised_by.last());
         let facts = serde_json::json!({ "revised by": revised_by }).to_string();
-        (last.map(|index| index as i64 + 1), Some(self.number(facts)))
+        (last.map(|index| index as i64 + 1), Some(found.number(facts)))
     }
 
     /// The rules that revise a property, by the row that they revise.

@@ -15,7 +15,7 @@ use adit_planners::world::World;
 
 use crate::graph::Building;
 use crate::knowledge::told::{Closable, Line};
-use crate::state::grounds::{Reason, Reasons};
+use crate::state::grounds::{Facts, Reason, Reasons};
 use crate::state::spaces;
 
 /// Where it stands which measures there are.
@@ -76,6 +76,13 @@ pub enum Which<'a> {
     All,
     /// Those of which something may have changed.
     Touched(&'a Changes),
+}
+
+/// What rules say of one property of some objects.
+struct Said {
+    values: Vec<Option<Value>>,
+    reasons: Vec<Reason>,
+    facts: Facts,
 }
 
 /// Looks at what an inference concluded.
@@ -163,10 +170,13 @@ impl Look<'_, '_> {
         }
         rows.sort_unstable();
         rows.dedup();
+        let said = |property: &str| self.said((class, property), &rows);
+        let (hardness, (action, passable)) =
+            rayon::join(|| said("hardness"), || rayon::join(|| said("action"), || said("passable")));
         // made one by one: what rules say of all doors at once is more than the doors
-        let hardness = self.values((class, "hardness"), &rows, number);
-        let action = self.values((class, "action"), &rows, text);
-        let passable = self.values((class, "passable"), &rows, truth);
+        let hardness = self.derived(hardness, number);
+        let action = self.derived(action, text);
+        let passable = self.derived(passable, truth);
         let measures = texts(self.knowledge, class, &rows, &measures);
         let weights = hardness.zip(action).zip(passable).zip(measures);
         let weights = weights.map(|(((hardness, action), passable), measures)| Weight {
@@ -185,21 +195,29 @@ impl Look<'_, '_> {
         value: fn(&Value) -> Option<T>,
     ) -> Vec<(usize, Derived<T>)> {
         let rows = self.rows(class, property);
-        let values = self.values((class, property), &rows, value);
+        let said = self.said((class, property), &rows);
+        let values = self.derived(said, value);
         rows.into_iter().map(|row| row as usize).zip(values).collect()
     }
 
-    fn values<T>(
+    /// What is said of a property of the objects in these rows, and why.
+    fn said(&self, (class, property): (&str, &str), rows: &[u32]) -> Said {
+        let (reasons, facts) = match &self.reasons {
+            Some(reasons) => reasons.of_rows(class, property, rows),
+            None => (vec![(None, None); rows.len()], Facts::default()),
+        };
+        Said { values: self.knowledge.values_at(class, rows, property), reasons, facts }
+    }
+
+    /// The same as columns have it; the facts behind it are kept.
+    fn derived<T>(
         &mut self,
-        (class, property): (&str, &str),
-        rows: &[u32],
+        Said { values, reasons, facts }: Said,
         value: fn(&Value) -> Option<T>,
     ) -> impl Iterator<Item = Derived<T>> + use<T> {
-        let reasons = match &mut self.reasons {
-            Some(reasons) => reasons.of_rows(class, property, rows),
-            None => vec![(None, None); rows.len()],
-        };
-        let values = self.knowledge.values_at(class, rows, property);
+        if let Some(of) = &mut self.reasons {
+            of.keep(facts);
+        }
         let derived = move |(given, (rule, witness)): (Option<Value>, Reason)| Derived {
             value: given.as_ref().and_then(value),
             rule,

@@ -1,6 +1,5 @@
 //! Which rules, and which rows of tables, spoke of the last object, and what kept the others from it.
 
-use std::cell::RefCell;
 use std::fmt;
 
 use super::Consultation;
@@ -8,7 +7,7 @@ use crate::class::value;
 use crate::machine::scalar::{Object, Scalar, Written};
 use crate::plan::{Effect, Plan};
 use crate::rule::{Action, PropertyName, Rule};
-use crate::symbols::Symbols;
+use crate::symbols::Lexicon;
 use crate::table::Table;
 use crate::value::{Cell, Truth, Value};
 
@@ -101,8 +100,8 @@ fn of_rule(rule: &Rule, plan: &Plan, object: &Object) -> Vec<Considered> {
     .collect()
 }
 
-fn rows(table: &Table, inputs: &[Cell], symbols: &RefCell<Symbols>) -> Vec<Option<Miss>> {
-    let symbols = symbols.borrow();
+fn rows(table: &Table, inputs: &[Cell], symbols: &Lexicon) -> Vec<Option<Miss>> {
+    let symbols = symbols.read();
     let miss = |(row, column): (&crate::table::Row, Option<usize>)| {
         let column = column?;
         let (given, found) = (table.given[column].1.clone(), value(inputs[column], &symbols));

@@ -204,7 +204,7 @@ impl Walk<'_> {
         // The first steps of a table look at its inputs, one each.
         let inputs = then.steps.iter().take(table.given.len());
         let inputs: Vec<Cell> = inputs.map(|step| self.machine.values(step.value(), frame).cell(0)).collect();
-        let misses = table.misses(&inputs, &self.knowledge.symbols.borrow());
+        let misses = table.misses(&inputs, &self.knowledge.symbols.read());
         for (row, column) in misses.iter().enumerate().filter_map(|(row, column)| Some((row, (*column)?))) {
             let reason = Rejection::Row {
                 row: row + 1,
