@@ -3,6 +3,8 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::sync::Arc;
 
+use smallvec::SmallVec;
+
 use super::tolerance::{ROUNDING_M, SNAP_M};
 use super::{Point, Rect, Sector, Segment, cross};
 
@@ -16,11 +18,18 @@ pub struct Convex {
 }
 
 /// Where a polygon lies by a line.
-enum Cut {
+#[derive(PartialEq)]
+enum Side {
     Left,
-    /// On both sides; with what lies to the left, where that is an area.
-    Through(Option<Convex>),
+    Both,
     Right,
+}
+
+/// A convex polygon that is cut, line by line: most have few corners, and many are cut for each that is kept.
+struct Part {
+    bounds: Rect,
+    is_rect: bool,
+    corners: SmallVec<[Point; 16]>,
 }
 
 impl From<Rect> for Convex {
@@ -33,8 +42,7 @@ impl Convex {
     /// # Arguments
     /// `corners` are at least three, counterclockwise.
     pub fn new(corners: Vec<Point>) -> Self {
-        let bounds = Rect::around(corners.iter().copied());
-        let is_rect = corners.len() == 4 && bounds.corners().iter().all(|corner| corners.contains(corner));
+        let (bounds, is_rect) = about(&corners);
         Self { bounds, corners: (!is_rect).then(|| corners.into()) }
     }
 
@@ -216,22 +224,11 @@ impl Convex {
 
     /// What lies left of the line through a segment, in its direction; `None` where nothing does but a rounding.
     pub fn left_of(&self, line: Segment) -> Option<Self> {
-        match self.cut_by(line) {
-            Cut::Left => Some(self.clone()),
-            Cut::Through(part) => part,
-            Cut::Right => None,
-        }
-    }
-
-    fn cut_by(&self, line: Segment) -> Cut {
-        let slack = ROUNDING_M * line.length();
-        let side = |p: Point| cross(line.a, line.b, p);
-        if self.corners().all(|corner| side(corner) >= -slack) {
-            Cut::Left
-        } else if self.is_right_of(line) {
-            Cut::Right
-        } else {
-            Cut::Through(self.part_left_of(line))
+        let mut part = Part::of(self);
+        match part.cut_by(line)? {
+            Side::Left => Some(self.clone()),
+            Side::Both => Some(part.into()),
+            Side::Right => None,
         }
     }
 
@@ -239,36 +236,6 @@ impl Convex {
     fn is_right_of(&self, line: Segment) -> bool {
         let slack = ROUNDING_M * line.length();
         self.corners().all(|corner| cross(line.a, line.b, corner) <= slack)
-    }
-
-    fn part_left_of(&self, line: Segment) -> Option<Self> {
-        let side = |p: Point| cross(line.a, line.b, p);
-        if self.corners.is_none() {
-            let (Rect { x0, y0, x1, y1 }, Point { x, y }, way) = (self.bounds, line.a, line.b - line.a);
-            if way.x == 0.0 {
-                let part = if way.y > 0.0 { Rect::new(x0, y0, x, y1) } else { Rect::new(x, y0, x1, y1) };
-                return Some(part.into());
-            }
-            if way.y == 0.0 {
-                let part = if way.x > 0.0 { Rect::new(x0, y, x1, y1) } else { Rect::new(x0, y0, x1, y) };
-                return Some(part.into());
-            }
-        }
-        let mut kept = Vec::with_capacity(self.count() + 1);
-        for Segment { a, b } in self.sides() {
-            let (one, two) = (side(a), side(b));
-            if one >= 0.0 {
-                kept.push(a);
-            }
-            if one.min(two) < 0.0 && one.max(two) > 0.0 {
-                kept.push(a.lerp(b, one / (one - two)));
-            }
-        }
-        kept.dedup_by(|b, a| a.distance(*b) <= ROUNDING_M);
-        if kept.len() > 1 && kept[0].distance(kept[kept.len() - 1]) <= ROUNDING_M {
-            kept.pop();
-        }
-        (kept.len() >= 3).then(|| Self::new(kept))
     }
 
     /// Whether both have an area in common, or come as near to it as a rounding.
@@ -290,15 +257,15 @@ impl Convex {
         if other.sides().any(|side| self.is_right_of(side)) {
             return None;
         }
-        let mut rest: Option<Self> = None;
+        let (mut rest, mut is_cut) = (Part::of(self), false);
         for side in other.sides() {
-            match rest.as_ref().unwrap_or(self).cut_by(side) {
-                Cut::Left => {}
-                Cut::Through(part) => rest = Some(part?),
-                Cut::Right => return None,
+            match rest.cut_by(side)? {
+                Side::Left => {}
+                Side::Both => is_cut = true,
+                Side::Right => return None,
             }
         }
-        Some(rest.unwrap_or_else(|| self.clone()))
+        Some(if is_cut { rest.into() } else { self.clone() })
     }
 
     /// The longest part of a side on which another one lies to its other side; `None` where there is none.
@@ -351,6 +318,73 @@ impl Convex {
         };
         self.sides().map(across).fold(f64::INFINITY, f64::min)
     }
+}
+
+impl Part {
+    fn of(whole: &Convex) -> Self {
+        let corners = match whole.all() {
+            Corners::Rect(corners) => SmallVec::from_slice(&corners),
+            Corners::Polygon(corners) => SmallVec::from_slice(corners),
+        };
+        Self { bounds: whole.bounds, is_rect: whole.corners.is_none(), corners }
+    }
+
+    /// Leaves what lies left of the line through a segment, in its direction, where it lies on both sides; `None` where that is less
+    /// than an area.
+    fn cut_by(&mut self, line: Segment) -> Option<Side> {
+        let slack = ROUNDING_M * line.length();
+        let by: SmallVec<[f64; 16]> =
+            self.corners.iter().map(|&corner| cross(line.a, line.b, corner)).collect();
+        if by.iter().all(|&by| by >= -slack) {
+            return Some(Side::Left);
+        }
+        if by.iter().all(|&by| by <= slack) {
+            return Some(Side::Right);
+        }
+        let (Rect { x0, y0, x1, y1 }, Point { x, y }, way) = (self.bounds, line.a, line.b - line.a);
+        if self.is_rect && (way.x == 0.0 || way.y == 0.0) {
+            self.bounds = if way.x == 0.0 {
+                if way.y > 0.0 { Rect::new(x0, y0, x, y1) } else { Rect::new(x, y0, x1, y1) }
+            } else {
+                if way.x > 0.0 { Rect::new(x0, y, x1, y1) } else { Rect::new(x0, y0, x1, y) }
+            };
+            self.corners = SmallVec::from_slice(&self.bounds.corners());
+            return Some(Side::Both);
+        }
+        let mut kept: SmallVec<[Point; 16]> = SmallVec::new();
+        for (number, (&a, &one)) in self.corners.iter().zip(&by).enumerate() {
+            let next = if number + 1 == by.len() { 0 } else { number + 1 };
+            let (b, two) = (self.corners[next], by[next]);
+            if one >= 0.0 {
+                kept.push(a);
+            }
+            if one.min(two) < 0.0 && one.max(two) > 0.0 {
+                kept.push(a.lerp(b, one / (one - two)));
+            }
+        }
+        kept.dedup_by(|b, a| a.distance(*b) <= ROUNDING_M);
+        if kept.len() > 1 && kept[0].distance(kept[kept.len() - 1]) <= ROUNDING_M {
+            kept.pop();
+        }
+        if kept.len() < 3 {
+            return None;
+        }
+        (self.bounds, self.is_rect) = about(&kept);
+        self.corners = kept;
+        Some(Side::Both)
+    }
+}
+
+impl From<Part> for Convex {
+    fn from(part: Part) -> Self {
+        Self { bounds: part.bounds, corners: (!part.is_rect).then(|| part.corners.as_slice().into()) }
+    }
+}
+
+/// The least rectangle along the axes about corners, and whether they are those of it.
+fn about(corners: &[Point]) -> (Rect, bool) {
+    let bounds = Rect::around(corners.iter().copied());
+    (bounds, corners.len() == 4 && bounds.corners().iter().all(|corner| corners.contains(corner)))
 }
 
 #[derive(Clone, Copy)]

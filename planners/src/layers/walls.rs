@@ -38,13 +38,17 @@ struct Ring {
 #[derive(Debug)]
 pub(super) struct Walls {
     rings: Vec<Ring>,
+    /// Their straight sides, found by where they are.
+    sides: RTree<Side>,
 }
 
 impl Walls {
     pub fn new(world: &World) -> Self {
         let drawn = world.obstacles.iter().map(|obstacle| Ring::drawn(&obstacle.shape));
         let pictured = world.occupancy.iter().flat_map(Ring::pictured);
-        Self { rings: drawn.chain(pictured).collect() }
+        let rings: Vec<Ring> = drawn.chain(pictured).collect();
+        let sides = RTree::bulk_load(sides_of(&rings, 0).collect());
+        Self { rings, sides }
     }
 
     /// The walls with the rectangles `low`, as straight as they can be without closing a gap that a disc passes.
@@ -53,21 +57,30 @@ impl Walls {
     /// `across` is what the disc takes of room, metres: its width with what it keeps free on both sides. `most` is
     /// what it may take where arcs are drawn coarsely.
     pub fn about_discs(&self, low: &[Rect], bounds: Rect, [across, most]: [f64; 2]) -> Vec<Vec<Corner>> {
-        let all: Vec<Ring> = self.rings.iter().cloned().chain(low.iter().map(Ring::of_rect)).collect();
+        let low: Vec<Ring> = low.iter().map(Ring::of_rect).collect();
+        let all: Vec<&Ring> = self.rings.iter().chain(&low).collect();
         let edge = Ring::of_rect(&bounds);
-        let sides: Vec<Side> = all.iter().enumerate().flat_map(|(number, ring)| ring.sides(number)).collect();
-        let index = RTree::bulk_load(sides.clone());
+        let low = RTree::bulk_load(sides_of(&low, self.rings.len()).collect());
         let is_restored = |side: &Side| {
+            let near = around(side.line, across);
             !side.is_whole
-                && index.locate_in_envelope_intersecting(around(side.line, across)).any(|other| {
-                    faces(&side.line, &other.line)
-                        && side.line.gap(&other.line) < across
-                        && least_gap(&all[side.ring].chain(side.number), &all[other.ring].chain(other.number))
-                            >= across
-                })
+                && [&self.sides, &low]
+                    .iter()
+                    .flat_map(|sides| sides.locate_in_envelope_intersecting(near))
+                    .any(|other| {
+                        faces(&side.line, &other.line)
+                            && side.line.gap(&other.line) < across
+                            && least_gap(
+                                &all[side.ring].chain(side.number),
+                                &all[other.ring].chain(other.number),
+                            ) >= across
+                    })
         };
-        let restored: Vec<bool> = sides.par_iter().map(is_restored).collect();
-        let mut restored = restored.into_iter();
+        let restored = |(number, ring): (usize, &&Ring)| -> Vec<bool> {
+            ring.sides(number).map(|side| is_restored(&side)).collect()
+        };
+        let restored: Vec<Vec<bool>> = all.par_iter().enumerate().map(restored).collect();
+        let mut restored = restored.into_iter().flatten();
         let mut rings: Vec<Vec<Corner>> = Vec::with_capacity(all.len());
         for ring in &all {
             let mut corners = Vec::with_capacity(ring.kept.len());
@@ -90,6 +103,11 @@ impl Walls {
         let corners = |ring: &Ring| ring.kept.iter().map(|&corner| ring.corners[corner].into()).collect();
         self.rings.iter().map(corners).chain(low.iter().map(|rect| corners(&Ring::of_rect(rect)))).collect()
     }
+}
+
+/// The straight sides of rings that are numbered from a number on.
+fn sides_of(rings: &[Ring], first: usize) -> impl Iterator<Item = Side> + '_ {
+    rings.iter().enumerate().flat_map(move |(number, ring)| ring.sides(first + number))
 }
 
 fn lines(ring: &[Corner]) -> impl Iterator<Item = Segment> + '_ {

@@ -3,7 +3,10 @@
 
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, HashMap};
+use std::num::NonZero;
+use std::panic::resume_unwind;
 use std::sync::{Arc, OnceLock};
+use std::thread;
 
 use fixedbitset::FixedBitSet;
 
@@ -40,6 +43,9 @@ pub(super) struct Turning {
 
 /// Where it may pay to begin a change, in each direction, and whichever of its rooms is easier; found when first asked for.
 type Gates = [[OnceLock<Box<[Gate]>>; 3]; 2];
+
+/// So many ends are looked at on one thread.
+const ENDS: usize = 20_000;
 
 /// Farther away from the rooms of a change than this nothing touches where it may pay, metres.
 const REACH_M: f64 = 1.0;
@@ -139,10 +145,13 @@ impl Turning {
         let mut ends: Vec<u32> = ends.collect();
         ends.sort_unstable();
         ends.dedup();
-        for end in ends {
-            let passing = |door: DoorIndex| self.passing[door.index()];
-            self.bends[end as usize] = self.mesh.bends(rooms, doors, end, passing);
-            let parts = self.mesh.parts(doors, end, passing);
+        let passing = |door: DoorIndex| self.passing[door.index()];
+        let find = |&end: &u32| {
+            let bends = self.mesh.bends(rooms, doors, end, passing);
+            (end, bends, self.mesh.parts(doors, end, passing))
+        };
+        for (end, bends, parts) in side_by_side(&ends, find) {
+            self.bends[end as usize] = bends;
             if parts.is_empty() {
                 self.parts.remove(&end);
             } else {
@@ -150,4 +159,21 @@ impl Turning {
             }
         }
     }
+}
+
+/// What comes of each of many, on as many threads as there are cores. Threads of a pool that wait for one graph's turning might have
+/// begun to find it.
+fn side_by_side<T: Sync, R: Send>(all: &[T], find: impl Fn(&T) -> R + Sync) -> Vec<R> {
+    let threads = thread::available_parallelism().map_or(1, NonZero::get).min(all.len() / ENDS).max(1);
+    if threads == 1 {
+        return all.iter().map(find).collect();
+    }
+    let find = &find;
+    thread::scope(|scope| {
+        let parts = all.chunks(all.len().div_ceil(threads));
+        let parts = parts.map(|part| scope.spawn(move || part.iter().map(find).collect::<Vec<R>>()));
+        let parts: Vec<_> = parts.collect();
+        let joined = parts.into_iter().map(|part| part.join().unwrap_or_else(|panic| resume_unwind(panic)));
+        joined.flatten().collect()
+    })
 }
