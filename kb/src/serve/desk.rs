@@ -27,6 +27,9 @@ use crate::site::journal;
 /// Rules run here: their deepest nesting needs more than the usual stack.
 const STACK: usize = 16 << 20;
 
+/// After so long whoever opened the page of a service that was just begun sees it.
+const FIRST_PAGE: Duration = Duration::from_secs(3);
+
 /// How long nobody asks before files, clock and other programs are looked after; then twice a file must look the same.
 const TICK: Duration = Duration::from_millis(200);
 
@@ -241,7 +244,11 @@ impl Desk {
             return;
         }
         self.asked = planners;
-        let work = move || side_by_side(|| ahead.make());
+        let work = move || {
+            // whoever opens the page of a service that has just begun comes first
+            thread::sleep(FIRST_PAGE);
+            side_by_side(|| ahead.make());
+        };
         // where there is no thread to be had, whoever needs it waits for it
         thread::Builder::new().name("ahead".to_owned()).spawn(work).ok();
     }

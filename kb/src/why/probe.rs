@@ -51,8 +51,9 @@ impl Prober {
         Self { now: present.clone(), present: Arc::new(present), fork, needs, is_cut_anew: false }
     }
 
-    /// What the value leads to. The cell keeps it until [`restore`](Self::restore).
+    /// What the value leads to; an error where nobody waits for it any more. The cell keeps it until [`restore`](Self::restore).
     pub fn at(&mut self, lever: &Lever, value: f64) -> Result<Probe> {
+        self.fork.go_on()?;
         let fork = &mut self.fork;
         let told =
             fork.knowledge.tell_row(&lever.class, lever.row, &lever.column, Some(Value::Number(value)));
