@@ -51,7 +51,14 @@ class Numbers {
   /** Points as x, y, x, y, …; they are counted from the map's lower left corner. */
   points(count) {
     const [x0, y0] = this.from;
-    return Array.from(this.take(Float32Array, 2 * count), (value, i) => value + (i % 2 ? y0 : x0));
+    const taken = this.take(Float32Array, 2 * count);
+    // A loop: what goes over a large floor value by value by a function takes five times as long.
+    const all = new Array(2 * count);
+    for (let i = 0; i < all.length; i += 2) {
+      all[i] = taken[i] + x0;
+      all[i + 1] = taken[i + 1] + y0;
+    }
+    return all;
   }
 
   polygons(count) {

@@ -60,11 +60,15 @@ export const exact = (of) => (typeof of === 'number' ? String(Number(of.toPrecis
 /** An action as it is said: `walk on knee`. */
 export const action = (name) => (name ? name.toLowerCase().replaceAll('_', '-') : 'move');
 
+// Made once: it takes longer than all else that is said of a moment.
+let made = null;
+const clock = () => (made ??= new Intl.DateTimeFormat([], { hour: '2-digit', minute: '2-digit', hour12: false }));
+
 /** A moment: the time where it is today, else with its day. */
 export function moment(text) {
   const at = new Date(text);
   if (Number.isNaN(at.getTime())) return text ?? '';
-  const time = at.toLocaleTimeString([], { hour: '2-digit', minute: '2-digit', hour12: false });
+  const time = clock().format(at);
   return at.toDateString() === new Date().toDateString() ? time : `${at.toLocaleDateString('en-GB', { day: 'numeric', month: 'short' })} ${time}`;
 }
 

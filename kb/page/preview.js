@@ -16,7 +16,7 @@ import { cellList, conclusionList, noteList, routeList, rulesTried, summary, thi
 import { previewOf } from './tried.js';
 import { isOn } from './tunings.js';
 
-const WAIT = 120;
+const WAIT = 80;
 const QUICK = 30;
 const THOROUGH = 5000;
 let stop = null;
