@@ -15,7 +15,10 @@ use crate::fit::{self, Added, Fit, Row, Scale, rows_of_csv};
 use crate::serve::fault::{Answered, Fault};
 use crate::serve::gate::require;
 use crate::serve::role::{Caller, Role};
+use crate::site::calm::come_last;
+use crate::state::State;
 use crate::why::firm::Firm;
+
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Way {
@@ -31,7 +34,11 @@ pub struct Way {
            ("robot" = Option<String>, Query, description = "Whose route")),
     responses((status = 200, body = Firm)))]
 pub async fn firm(site: Site, Asked(way): Asked<Way>) -> Answered<Json<Firm>> {
-    site.on_fork(move |fork| fork.firm(&way.start, &way.goal, way.robot.as_deref())).await.map(Json)
+    let firm = move |fork: State| {
+        come_last();
+        fork.firm(&way.start, &way.goal, way.robot.as_deref())
+    };
+    site.on_fork(firm).await.map(Json)
 }
 
 #[derive(Serialize, ToSchema)]
