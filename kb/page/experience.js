@@ -41,8 +41,10 @@ function rounded(cell) {
 
 const known = (cell) => cell.proposed !== null && cell.proposed !== undefined;
 
+const isTaken = ({ table, key, column }) => model.pending.has(cellId(table, key, column));
+
 function takeButton(cell) {
-  const taken = model.pending.has(cellId(cell.table, cell.key, cell.column));
+  const taken = isTaken(cell);
   const old = cellOf(cell);
   if (!known(cell)) return '';
   if (old === rounded(cell)) return 'is so already';
@@ -75,13 +77,15 @@ async function load() {
     const fit = await get(path('/api/fit', { robot: model.ask.robot, measure: wanted }));
     const rows = fit.cells.map((cell) => [keyName(cell.key), cell.column, value(cell.present), el('b', { text: known(cell) ? exact(rounded(cell)) : 'cannot be estimated' }), cell.low === null ? '' : `${number(cell.low)} to ${number(cell.high)}`, String(cell.observations ?? ''), takeButton(cell)]);
     const notes = (fit.notes ?? []).map((text) => el('p', { class: 'hint', text }));
-    const pending = model.pending.size ? el('p', {}, `${model.pending.size} taken. `, el('a', { href: '#map', text: 'See on the map what they would change, and save' })) : null;
+    const taken = fit.cells.filter(isTaken).length;
+    const pending = taken ? el('p', {}, `${taken} taken. `, el('a', { href: '#map', text: 'See on the map what they would change, and save' })) : null;
     refill(byId('fit'), measureChoice(), fit.cells.length ? grid('Proposed values', ['of', 'what', 'now', 'proposed', '95 % between', 'from', ''], rows) : el('p', { class: 'hint', text: 'Nothing to propose yet.' }), ...notes, pending);
   } catch (error) {
     const isOther = error.code === 'fit/which-measure' || (wanted && error.code === 'fit/unknown-measure');
     if (isOther && await isMeasureChosen()) return load();
     fill(byId('fit'), said(error));
-  }  return undefined;
+  }
+  return undefined;
 }
 
 async function forget() {

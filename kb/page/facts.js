@@ -112,7 +112,7 @@ function goes(laid) {
 }
 
 function drawLink() {
-  return el('p', {}, el('a', { href: '#map', text: 'Draw on the map', on: { click: () => setTimeout(() => byId('draw').click()) } }), ' what else lies there: areas, obstacles, places.');
+  return el('p', {}, el('a', { href: '#map', text: 'Draw on the map', on: { click: () => setTimeout(() => byId('draw').click()) } }), ' what else lies there: areas, obstacles, places, bridges, doors.');
 }
 
 function show() {
