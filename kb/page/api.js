@@ -1,5 +1,6 @@
 /** The service: one way to ask it, one shape of errors. */
 
+import { early, headers } from './early.js';
 import { askForToken } from './signin.js';
 
 /** What went wrong, as the service said it. */
@@ -10,21 +11,13 @@ export class ApiError extends Error {
   }
 }
 
-/** Headers that say who asks. Percent-encoded: a name may have any letters, a header may not. */
-export function headers() {
-  const sent = {};
-  const token = sessionStorage.getItem('adit-token');
-  if (token) sent.authorization = `Bearer ${token}`;
-  sent['x-adit-who'] = encodeURIComponent(localStorage.getItem('adit-who') || 'page');
-  return sent;
-}
-
 async function ask(method, path, body, options) {
+  const begun = method === 'GET' && !options.signal ? early(path) : undefined;
   const sent = headers();
   if (body !== undefined) sent['content-type'] = options.type ?? 'application/json';
   const text = body === undefined || options.type ? body : JSON.stringify(body);
   try {
-    return await fetch(path, { method, headers: sent, body: text, signal: options.signal });
+    return await (begun ?? fetch(path, { method, headers: sent, body: text, signal: options.signal }));
   } catch (error) {
     if (error.name === 'AbortError') throw error;
     throw new ApiError(0, { code: 'http/unreachable', message: 'The service does not answer.', help: 'What you typed is kept; try again when the connection is back.' });

@@ -2,11 +2,11 @@
 
 import { get } from './api.js';
 import { button, byId, el, pressOnce } from './dom.js';
-import { first } from './early.js';
 import { startEnds, lead, openEnds } from './ends.js';
 import { startExperience } from './experience.js';
 import { startFacts } from './facts.js';
 import { startFirm } from './firm.js';
+import { getFloor, getWeights } from './floor.js';
 import { moment } from './format.js';
 import { readLaid } from './laid.js';
 import { startHistory } from './history.js';
@@ -82,10 +82,10 @@ async function begin() {
   startTheme();
   pressOnce();
   try {
-    const rest = Promise.all([first.floor, first.weights, get('/api/tables'), readTunings(), get('/api/facts')]);
+    const rest = Promise.all([getFloor(), getWeights(), get('/api/tables'), readTunings(), get('/api/facts')]);
     // A failure of the rest is heard below, when it is waited for; until then it is no stray one.
     rest.catch(() => {});
-    const site = await first.site;
+    const site = await get('/api/site');
     model.set('site', site);
     start();
     model.set('site', site);

@@ -1,6 +1,6 @@
 /** Live events, read with fetch, since an EventSource can send no token. Comes back by itself after a break. */
 
-import { headers } from './api.js';
+import { headers } from './early.js';
 import { askForToken } from './signin.js';
 
 const FIRST_WAIT = 250;
