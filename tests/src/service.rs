@@ -166,8 +166,13 @@ impl Service {
 
     /// What an address gives, as bytes.
     pub fn bytes(&self, path: &str) -> Vec<u8> {
+        self.bytes_as(&[], path)
+    }
+
+    /// The same with headers.
+    pub fn bytes_as(&self, headers: &[&str], path: &str) -> Vec<u8> {
         let mut stream = TcpStream::connect(&self.address).expect("somebody answers there");
-        send(&mut stream, &self.address, &[], ("GET", path), None).expect("asked");
+        send(&mut stream, &self.address, headers, ("GET", path), None).expect("asked");
         let mut answer = Vec::new();
         stream.read_to_end(&mut answer).expect("answered");
         assert!(answer.starts_with(b"HTTP/1.1 200"), "{}", String::from_utf8_lossy(&answer[..200]));

@@ -12,6 +12,12 @@ use crate::error::Code;
 const WHO: &str = "x-adit-who";
 const NAME_LENGTH: usize = 100;
 
+/// Names of the machine itself.
+const HERE: [&str; 3] = ["localhost", "127.0.0.1", "[::1]"];
+
+/// What proxies say of whom they ask for.
+const PROXIED: [&str; 3] = ["forwarded", "via", "x-forwarded-for"];
+
 /// What is answered to everybody: whether the service lives, and whether it can save.
 const OPEN: [&str; 2] = ["/api/health", "/api/ready"];
 
@@ -31,10 +37,9 @@ pub fn look(shared: &Shared, request: &Request) -> Answered<Caller> {
 
 /// A page elsewhere whose name was made to point here (DNS rebinding) calls by that name.
 fn check_host(shared: &Shared, headers: &HeaderMap) -> Answered<()> {
-    let host = headers.get(header::HOST).and_then(|host| host.to_str().ok()).unwrap_or_default();
-    let name = name_of(host);
+    let name = called(headers);
     let listen = shared.settings.listen.ip();
-    let is_ours = ["localhost", "127.0.0.1", "[::1]"].contains(&name)
+    let is_ours = HERE.contains(&name)
         || name.trim_matches(['[', ']']) == listen.to_string()
         || shared.settings.hosts.iter().any(|known| known.eq_ignore_ascii_case(name));
     if is_ours {
@@ -47,8 +52,16 @@ fn check_host(shared: &Shared, headers: &HeaderMap) -> Answered<()> {
     Err(fault.helped("start it with `--host NAME` to let it be called so"))
 }
 
-/// The name in `name:port`.
-fn name_of(host: &str) -> &str {
+/// Whether the service is called as one does on its own machine. A proxy there passes on by what name it was called, or for whom
+/// it asks.
+pub fn is_called_on_the_spot(headers: &HeaderMap) -> bool {
+    let is_passed_on = PROXIED.iter().any(|name| headers.contains_key(*name));
+    !is_passed_on && HERE.contains(&called(headers))
+}
+
+/// The name by which the service is called, of `name:port`.
+fn called(headers: &HeaderMap) -> &str {
+    let host = headers.get(header::HOST).and_then(|host| host.to_str().ok()).unwrap_or_default();
     match host.rsplit_once(':') {
         Some((name, port)) if port.bytes().all(|byte| byte.is_ascii_digit()) => name,
         _ => host,

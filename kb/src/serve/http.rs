@@ -46,7 +46,7 @@ use utoipa_axum::routes;
 
 use super::fault::{Failure, Fault};
 use super::shared::Shared;
-use super::{event, meter, page};
+use super::{event, gate, meter, page};
 use crate::error::Code;
 use extract::{BODY, too_large};
 use pass::Peer;
@@ -227,9 +227,10 @@ async fn question(
     }
 }
 
-/// Sends whoever asks from the same machine everything as it is: packing it takes longer than sending it.
+/// Sends whoever asks from the same machine, for nobody elsewhere, everything as it is: packing it takes longer than sending it.
 async fn unpacked(mut request: Request<Body>, next: middleware::Next) -> Response {
-    if request.extensions().get::<Peer>().is_some_and(|peer| peer.0.is_loopback()) {
+    let is_near = request.extensions().get::<Peer>().is_some_and(|peer| peer.0.is_loopback());
+    if is_near && gate::is_called_on_the_spot(request.headers()) {
         request.headers_mut().remove(header::ACCEPT_ENCODING);
     }
     next.run(request).await

@@ -18,8 +18,7 @@ pub struct Convex {
 }
 
 /// Where a polygon lies by a line.
-#[derive(PartialEq)]
-enum Side {
+enum Cut {
     Left,
     Both,
     Right,
@@ -226,9 +225,9 @@ impl Convex {
     pub fn left_of(&self, line: Segment) -> Option<Self> {
         let mut part = Part::of(self);
         match part.cut_by(line)? {
-            Side::Left => Some(self.clone()),
-            Side::Both => Some(part.into()),
-            Side::Right => None,
+            Cut::Left => Some(self.clone()),
+            Cut::Both => Some(part.into()),
+            Cut::Right => None,
         }
     }
 
@@ -260,9 +259,9 @@ impl Convex {
         let (mut rest, mut is_cut) = (Part::of(self), false);
         for side in other.sides() {
             match rest.cut_by(side)? {
-                Side::Left => {}
-                Side::Both => is_cut = true,
-                Side::Right => return None,
+                Cut::Left => {}
+                Cut::Both => is_cut = true,
+                Cut::Right => return None,
             }
         }
         Some(if is_cut { rest.into() } else { self.clone() })
@@ -329,17 +328,17 @@ impl Part {
         Self { bounds: whole.bounds, is_rect: whole.corners.is_none(), corners }
     }
 
-    /// Leaves what lies left of the line through a segment, in its direction, where it lies on both sides; `None` where that is less
-    /// than an area.
-    fn cut_by(&mut self, line: Segment) -> Option<Side> {
+    /// Where it lies on both sides of the line through a segment, leaves what lies to the left, in its direction; `None` where that is
+    /// no area.
+    fn cut_by(&mut self, line: Segment) -> Option<Cut> {
         let slack = ROUNDING_M * line.length();
         let by: SmallVec<[f64; 16]> =
             self.corners.iter().map(|&corner| cross(line.a, line.b, corner)).collect();
         if by.iter().all(|&by| by >= -slack) {
-            return Some(Side::Left);
+            return Some(Cut::Left);
         }
         if by.iter().all(|&by| by <= slack) {
-            return Some(Side::Right);
+            return Some(Cut::Right);
         }
         let (Rect { x0, y0, x1, y1 }, Point { x, y }, way) = (self.bounds, line.a, line.b - line.a);
         if self.is_rect && (way.x == 0.0 || way.y == 0.0) {
@@ -349,7 +348,7 @@ impl Part {
                 if way.x > 0.0 { Rect::new(x0, y, x1, y1) } else { Rect::new(x0, y0, x1, y) }
             };
             self.corners = SmallVec::from_slice(&self.bounds.corners());
-            return Some(Side::Both);
+            return Some(Cut::Both);
         }
         let mut kept: SmallVec<[Point; 16]> = SmallVec::new();
         for (number, (&a, &one)) in self.corners.iter().zip(&by).enumerate() {
@@ -371,7 +370,7 @@ impl Part {
         }
         (self.bounds, self.is_rect) = about(&kept);
         self.corners = kept;
-        Some(Side::Both)
+        Some(Cut::Both)
     }
 }
 

@@ -247,6 +247,22 @@ fn pages_from_elsewhere_cannot_call_it() {
 }
 
 #[test]
+fn whoever_asks_from_the_same_machine_is_sent_everything_unpacked_and_a_proxy_there_packed() {
+    let site = TestSite::example("paper").built();
+    let anna = token(&site, "anna", &["read"]);
+    let service = Service::start_with(&site, &["--host", "adit.example"]);
+    let is_packed = |headers: &[&str]| {
+        let headers = [&["Accept-Encoding: gzip", anna.as_str()], headers].concat();
+        // gzip begins so, after the length of a chunk
+        service.bytes_as(&headers, "/api/map").windows(2).take(16).any(|two| two == [0x1f, 0x8b])
+    };
+    assert!(!is_packed(&[]));
+    assert!(is_packed(&["Host: adit.example"]));
+    assert!(is_packed(&["X-Forwarded-For: 192.0.2.1"]));
+    assert!(is_packed(&["Via: 1.1 gate"]));
+}
+
+#[test]
 fn without_tokens_it_is_not_reached_from_elsewhere() {
     let site = TestSite::example("paper").built();
     let refused = site.adit("serve", &["--listen", "0.0.0.0:0"]).expecting(2);
