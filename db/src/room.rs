@@ -110,6 +110,13 @@ impl Row for Room {
         }
     }
 
+    fn weighs(&self, weight: &Weight) -> bool {
+        self.hardness == weight.hardness
+            && self.action == weight.action
+            && self.passable == weight.passable
+            && self.measures == weight.measures
+    }
+
     fn weigh(&mut self, weight: Weight) {
         (self.hardness, self.action) = (weight.hardness, weight.action);
         (self.passable, self.measures) = (weight.passable, weight.measures);

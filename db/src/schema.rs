@@ -85,6 +85,9 @@ pub trait Row: Default + Clone + Send + Sync + 'static {
     /// What rules say of it.
     fn weight(&self) -> Weight;
 
+    /// Whether rules say this of it.
+    fn weighs(&self, weight: &Weight) -> bool;
+
     /// Has rules say something else of it.
     fn weigh(&mut self, weight: Weight);
 

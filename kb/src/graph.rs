@@ -113,8 +113,7 @@ impl SiteGraph {
         });
         let room_by_key =
             rooms.iter().enumerate().map(|(index, room)| (room.room, RoomIndex::new(index))).collect();
-        let route_doors: Vec<Option<RouteDoor>> =
-            doors.par_iter().map(|door| route_door(door, &room_by_key, &route_rooms)).collect();
+        let route_doors = route_doors(&doors, &room_by_key, &route_rooms);
         // a door whose rooms somebody else took away leads nowhere
         let mut is_kept = route_doors.iter().map(Option::is_some);
         doors.retain(|_| is_kept.next().unwrap_or(false));
@@ -239,11 +238,12 @@ impl SiteGraph {
     /// Gives rooms and doors other weights.
     pub fn write(
         &mut self,
-        rooms: impl IntoIterator<Item = (RoomIndex, Weight)>,
-        doors: impl IntoIterator<Item = (DoorIndex, Weight)>,
+        rooms: impl IndexedParallelIterator<Item = (RoomIndex, Weight)>,
+        doors: impl IndexedParallelIterator<Item = (DoorIndex, Weight)>,
         building: &Arc<Building>,
     ) {
-        let (rooms, doors) = self.put(rooms, doors);
+        let (rooms, doors) =
+            (put(&mut self.rooms, rooms, RoomIndex::index), put(&mut self.doors, doors, DoorIndex::index));
         self.weigh(rooms.into_iter(), doors.into_iter(), building);
     }
 
@@ -252,8 +252,8 @@ impl SiteGraph {
         &mut self,
         from: &Self,
         (late_rooms, late_doors): (&[RoomIndex], &[DoorIndex]),
-        rooms: impl IntoIterator<Item = (RoomIndex, Weight)>,
-        doors: impl IntoIterator<Item = (DoorIndex, Weight)>,
+        rooms: impl IndexedParallelIterator<Item = (RoomIndex, Weight)>,
+        doors: impl IndexedParallelIterator<Item = (DoorIndex, Weight)>,
         building: &Arc<Building>,
     ) {
         for &room in late_rooms {
@@ -262,30 +262,13 @@ impl SiteGraph {
         for &door in late_doors {
             self.doors[door.index()].clone_from(&from[door]);
         }
-        let (rooms, doors) = self.put(rooms, doors);
+        let (rooms, doors) =
+            (put(&mut self.rooms, rooms, RoomIndex::index), put(&mut self.doors, doors, DoorIndex::index));
         self.weigh(
             late_rooms.iter().copied().chain(rooms),
             late_doors.iter().copied().chain(doors),
             building,
         );
-    }
-
-    /// Writes weights into rows; of which rooms and doors.
-    fn put(
-        &mut self,
-        rooms: impl IntoIterator<Item = (RoomIndex, Weight)>,
-        doors: impl IntoIterator<Item = (DoorIndex, Weight)>,
-    ) -> (Vec<RoomIndex>, Vec<DoorIndex>) {
-        let room = |(room, weight): (RoomIndex, Weight)| {
-            self.rooms[room.index()].weigh(weight);
-            room
-        };
-        let rooms = rooms.into_iter().map(room).collect();
-        let door = |(door, weight): (DoorIndex, Weight)| {
-            self.doors[door.index()].weigh(weight);
-            door
-        };
-        (rooms, doors.into_iter().map(door).collect())
     }
 
     /// Lets searches see the weights of these rows.
@@ -470,23 +453,75 @@ pub fn crossing_of(door: &Door, [one, other]: [&Convex; 2]) -> Crossing {
     let across = Segment::new(Point::new(x0, y0), Point::new(x1, y1));
     match door.kind {
         DoorKind::Door => Crossing::Through(across),
-        DoorKind::Change => Crossing::Within(outline::shared(one, other, across.bounds())),
+        DoorKind::Change => {
+            // there and back it is one area, to the bit
+            let (one, other) = if door.side1.room <= door.side2.room { (one, other) } else { (other, one) };
+            Crossing::Within(outline::shared(one, other, across.bounds()))
+        }
     }
 }
 
-fn route_door(door: &Door, keys: &HashMap<i64, RoomIndex>, rooms: &[RouteRoom]) -> Option<RouteDoor> {
-    let (room1, room2) = (*keys.get(&door.side1.room)?, *keys.get(&door.side2.room)?);
-    let crossing = crossing_of(door, [room1, room2].map(|room| &rooms[room.index()].outline));
-    Some(RouteDoor {
-        door: u32::try_from(door.door).ok()?,
-        room1,
-        room2,
-        crossing,
-        at: Point::new(door.at[0], door.at[1]),
-        hardness: door.hardness.value,
-        passable: door.passable.value.unwrap_or(false),
-        one_way: door.one_way,
-    })
+/// Doors as searches see them; `None` for one whose rooms are not there.
+fn route_doors(
+    doors: &[Door],
+    keys: &HashMap<i64, RoomIndex>,
+    rooms: &[RouteRoom],
+) -> Vec<Option<RouteDoor>> {
+    let ends = |door: &Door| Some([*keys.get(&door.side1.room)?, *keys.get(&door.side2.room)?]);
+    let there: Vec<Option<usize>> = doors.par_iter().map(|door| there_of(door, doors)).collect();
+    // what is cut for the way there is not cut again for the way back
+    let crossing = |(door, there): (&Door, &Option<usize>)| {
+        let ends = ends(door).filter(|_| there.is_none())?;
+        Some(crossing_of(door, ends.map(|room| &rooms[room.index()].outline)))
+    };
+    let crossings: Vec<Option<Crossing>> = doors.par_iter().zip(&there).map(crossing).collect();
+    let route_door = |(place, door): (usize, &Door)| {
+        let [room1, room2] = ends(door)?;
+        Some(RouteDoor {
+            door: u32::try_from(door.door).ok()?,
+            room1,
+            room2,
+            crossing: crossings[there[place].unwrap_or(place)].clone()?,
+            at: Point::new(door.at[0], door.at[1]),
+            hardness: door.hardness.value,
+            passable: door.passable.value.unwrap_or(false),
+            one_way: door.one_way,
+        })
+    };
+    doors.par_iter().enumerate().map(route_door).collect()
+}
+
+/// Of a change of shape back the place of the same change there, if doors stand in the order of their rooms.
+fn there_of(back: &Door, doors: &[Door]) -> Option<usize> {
+    let pair = (back.side2.room, back.side1.room);
+    if back.kind != DoorKind::Change || pair.0 >= pair.1 {
+        return None;
+    }
+    let there = doors.binary_search_by_key(&pair, |door| (door.side1.room, door.side2.room)).ok()?;
+    let is_same = doors[there].kind == back.kind
+        && doors[there].segment.map(f64::to_bits) == back.segment.map(f64::to_bits);
+    is_same.then_some(there)
+}
+
+/// Writes weights into rows, of each of which there is one at most, in their order; of which rows.
+fn put<R: Row + Send, I: Copy + Send>(
+    rows: &mut [R],
+    weights: impl IndexedParallelIterator<Item = (I, Weight)>,
+    place: fn(I) -> usize,
+) -> Vec<I> {
+    if weights.len() == rows.len() {
+        let put = |(row, (index, weight)): (&mut R, (I, Weight))| {
+            row.weigh(weight);
+            index
+        };
+        return rows.par_iter_mut().zip(weights).map(put).collect();
+    }
+    let weights: Vec<(I, Weight)> = weights.collect();
+    let put = |(index, weight): (I, Weight)| {
+        rows[place(index)].weigh(weight);
+        index
+    };
+    weights.into_iter().map(put).collect()
 }
 
 /// A name of the cut of a floor: rooms, doors and places by their geometry.

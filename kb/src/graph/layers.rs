@@ -7,6 +7,7 @@ use adit_db::room::Room;
 use adit_planners::geometry::{Point, Rect};
 use adit_planners::rect_index::RectIndex;
 use adit_planners::routes::{RoomIndex, RouteGraph};
+use rayon::prelude::*;
 
 /// Robot and state, and the degrees to which it faces; neither in the paper's modes.
 pub type Shape<'a> = (Option<&'a (String, String)>, Option<f64>);
@@ -39,7 +40,7 @@ impl Layer {
             index: RectIndex::new(members.iter().map(|&room| rect_of(&rooms[room.index()]))),
             rooms: members,
         };
-        layers.into_iter().map(layer).collect()
+        layers.into_par_iter().map(layer).collect()
     }
 
     /// The rooms that hold a point.

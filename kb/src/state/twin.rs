@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use adit_planners::routes::{DoorIndex, RoomIndex};
+use rayon::prelude::*;
 
 use crate::graph::SiteGraph;
 
@@ -64,7 +65,7 @@ impl Twin {
         let free = self.other.take().and_then(|other| Arc::try_unwrap(other).ok());
         let lag = std::mem::take(&mut self.lag);
         let building = weighed.building.as_ref().unwrap_or(&self.shown.building);
-        let (rooms, doors) = (weighed.rooms.iter().cloned(), weighed.doors.iter().cloned());
+        let (rooms, doors) = (weighed.rooms.par_iter().cloned(), weighed.doors.par_iter().cloned());
         let graph = if let Some(mut graph) = free {
             let late = (lag.rooms.as_slice(), lag.doors.as_slice());
             graph.follow(&self.shown, late, rooms, doors, building);

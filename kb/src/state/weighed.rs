@@ -12,6 +12,7 @@ use adit_db::weight::Weight;
 use adit_engine::{Changes, KnowledgeBase as Inference, RuleBase, Value};
 use adit_planners::routes::{DoorIndex, RoomIndex};
 use adit_planners::world::World;
+use rayon::prelude::*;
 
 use crate::graph::Building;
 use crate::knowledge::told::{Closable, Line};
@@ -99,7 +100,7 @@ pub struct Look<'a, 'r> {
 
 impl Look<'_, '_> {
     /// What rules say of rooms: of those that are looked at.
-    pub fn rooms(&mut self) -> impl Iterator<Item = (RoomIndex, Weight)> + use<> {
+    pub fn rooms(&mut self) -> impl IndexedParallelIterator<Item = (RoomIndex, Weight)> + use<> {
         let otherwise = (!decides_rooms(self.rules)).then_some(true);
         self.weights("ROOMS").map(move |(room, mut weight)| {
             weight.passable.value = weight.passable.value.or(otherwise);
@@ -108,15 +109,15 @@ impl Look<'_, '_> {
     }
 
     /// What rules say of doors: of those that are looked at.
-    pub fn doors(&mut self) -> impl Iterator<Item = (DoorIndex, Weight)> + use<> {
+    pub fn doors(&mut self) -> impl IndexedParallelIterator<Item = (DoorIndex, Weight)> + use<> {
         self.weights("DOORS")
     }
 
     /// In what rules say something else of these rooms and doors than they did.
     pub fn weighed(&mut self, rooms: &[Room], doors: &[Door]) -> Weighed {
         Weighed {
-            rooms: self.rooms().filter(|(room, weight)| *weight != rooms[room.index()].weight()).collect(),
-            doors: self.doors().filter(|(door, weight)| *weight != doors[door.index()].weight()).collect(),
+            rooms: self.rooms().filter(|(room, weight)| !rooms[room.index()].weighs(weight)).collect(),
+            doors: self.doors().filter(|(door, weight)| !doors[door.index()].weighs(weight)).collect(),
             building: None,
         }
     }
@@ -157,7 +158,10 @@ impl Look<'_, '_> {
         (now != *before).then_some(now)
     }
 
-    fn weights<I: From<u32>>(&mut self, class: &str) -> impl Iterator<Item = (I, Weight)> + use<I> {
+    fn weights<I: From<u32> + Send>(
+        &mut self,
+        class: &str,
+    ) -> impl IndexedParallelIterator<Item = (I, Weight)> + use<I> {
         let measures = measures(self.knowledge, class);
         let others = measures.iter().map(String::as_str);
         let mut rows: Vec<u32> = ["hardness", "action", "passable"]
@@ -185,11 +189,11 @@ impl Look<'_, '_> {
             passable,
             measures,
         });
-        rows.into_iter().map(I::from).zip(weights)
+        rows.into_par_iter().map(I::from).zip(weights)
     }
 
     /// One property of the objects that are looked at, by row.
-    pub fn each<T>(
+    pub fn each<T: Send>(
         &mut self,
         (class, property): (&str, &str),
         value: fn(&Value) -> Option<T>,
@@ -197,7 +201,7 @@ impl Look<'_, '_> {
         let rows = self.rows(class, property);
         let said = self.said((class, property), &rows);
         let values = self.derived(said, value);
-        rows.into_iter().map(|row| row as usize).zip(values).collect()
+        rows.into_par_iter().map(|row| row as usize).zip(values).collect()
     }
 
     /// What is said of a property of the objects in these rows, and why.
@@ -210,11 +214,11 @@ impl Look<'_, '_> {
     }
 
     /// The same as columns have it; the facts behind it are kept.
-    fn derived<T>(
+    fn derived<T: Send>(
         &mut self,
         Said { values, reasons, facts }: Said,
         value: fn(&Value) -> Option<T>,
-    ) -> impl Iterator<Item = Derived<T>> + use<T> {
+    ) -> impl IndexedParallelIterator<Item = Derived<T>> + use<T> {
         if let Some(of) = &mut self.reasons {
             of.keep(facts);
         }
@@ -223,7 +227,7 @@ impl Look<'_, '_> {
             rule,
             witness,
         };
-        values.into_iter().zip(reasons).map(derived)
+        values.into_par_iter().zip(reasons).map(derived)
     }
 
     /// The rows of a property whose value or reason may differ, ascending.
@@ -263,22 +267,14 @@ fn texts(
     class: &str,
     rows: &[u32],
     names: &[String],
-) -> impl Iterator<Item = Option<String>> + use<> {
+) -> impl IndexedParallelIterator<Item = Option<String>> + use<> {
     let columns: Vec<Vec<Option<Value>>> =
         names.iter().map(|name| knowledge.values_at(class, rows, name)).collect();
     let names = names.to_vec();
-    // rooms of a state mostly say the same
-    let mut last: (Vec<Option<f64>>, Option<String>) = (vec![None; names.len()], None);
-    (0..rows.len()).map(move |row| {
-        let amounts: Vec<Option<f64>> =
-            columns.iter().map(|column| column[row].as_ref().and_then(number)).collect();
-        if amounts != last.0 {
-            let known = names.iter().cloned().zip(&amounts);
-            let known = known.filter_map(|(name, amount)| Some((name, (*amount)?)));
-            let text = Measures(known.collect()).text();
-            last = (amounts, text);
-        }
-        last.1.clone()
+    (0..rows.len()).into_par_iter().map(move |row| {
+        let amounts = columns.iter().map(|column| column[row].as_ref().and_then(number));
+        let known = names.iter().zip(amounts).filter_map(|(name, amount)| Some((name.clone(), amount?)));
+        Measures(known.collect()).text()
     })
 }
 

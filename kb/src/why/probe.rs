@@ -11,9 +11,11 @@ mod levers;
 
 use std::sync::Arc;
 
+use adit_db::weight::Weight;
 use adit_engine::{Severity, Value};
 use adit_planners::facts::Facts;
 use adit_planners::routes::Walking;
+use rayon::prelude::*;
 
 use crate::error::{Code, Error, Result};
 use crate::graph::walking;
@@ -62,13 +64,18 @@ impl Prober {
         let (knowledge, graph) = (&fork.knowledge, fork.graph());
         let (rules, which) = (&fork.inputs.rules, Which::Touched(&changes));
         let mut look = Look { knowledge, rules, which, reasons: None };
-        for (room, weight) in look.rooms() {
-            let of_state = graph[room].layer.is_some();
-            self.now.rooms[room.index()] = walking(weight.hardness.value, weight.passable.value, of_state);
+        let rooms = look.rooms().map(|(room, Weight { hardness, passable, .. })| {
+            (room, walking(hardness.value, passable.value, graph[room].layer.is_some()))
+        });
+        for (room, walking) in rooms.collect::<Vec<_>>() {
+            self.now.rooms[room.index()] = walking;
         }
-        for (door, weight) in look.doors() {
-            let hardness = weight.hardness.value.filter(|_| weight.passable.value == Some(true));
-            self.now.doors[door.index()] = hardness.unwrap_or(f64::INFINITY);
+        let doors = look.doors().map(|(door, Weight { hardness, passable, .. })| {
+            let hardness = hardness.value.filter(|_| passable.value == Some(true));
+            (door, hardness.unwrap_or(f64::INFINITY))
+        });
+        for (door, hardness) in doors.collect::<Vec<_>>() {
+            self.now.doors[door.index()] = hardness;
         }
         let failed = knowledge.problems(&fork.inputs.rules);
         let is_bad = |number: f64| number < 0.0 || number.is_nan();

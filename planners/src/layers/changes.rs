@@ -61,8 +61,7 @@ fn turned_from(a: usize, b: usize) -> Option<usize> {
 
 fn there_and_back(first: [usize; 2], change: &Change) -> [Crossing; 2] {
     let [room1, room2] = [0, 1].map(|end| first[end] + change.rooms[end] as usize);
-    let Change { across, ways: [there, back], .. } = *change;
-    let crossing =
-        |room1, room2, (at, width)| Crossing { kind: Kind::Change, room1, room2, across, at, width };
-    [crossing(room1, room2, there), crossing(room2, room1, back)]
+    let Change { across, at, width, .. } = *change;
+    let crossing = |room1, room2| Crossing { kind: Kind::Change, room1, room2, across, at, width };
+    [crossing(room1, room2), crossing(room2, room1)]
 }

@@ -7,7 +7,7 @@ use super::layer::Layer;
 use super::places::Places;
 use crate::geometry::tolerance::SNAP_M;
 use crate::geometry::{Convex, Point, Rect, Segment};
-use crate::rooms::outline::shared;
+use crate::rooms::outline::part_of;
 
 /// An overlap not thicker than this is left out beside a thicker one, metres.
 const THIN_M: f64 = 0.1;
@@ -34,8 +34,10 @@ pub(super) struct Change {
     pub(super) rooms: [u32; 2],
     /// Opposite corners of the least rectangle about where it is made.
     pub(super) across: Segment,
-    /// Where the area lies in which it is made, and how wide that is: from the first room, and from the second.
-    pub(super) ways: [(Point, f64); 2],
+    /// Where the area lies in which it is made.
+    pub(super) at: Point,
+    /// How wide that is, metres.
+    pub(super) width: f64,
 }
 
 /// Which of two layers has the facing from which the other's is the next one.
@@ -66,26 +68,23 @@ pub(super) fn between(pair: &Pair) -> Vec<Change> {
             }
         }
     }
-    let change = |(a, b): (u32, u32), rect: Rect| {
-        let (one, other) = (&from.rooms[a as usize], &to.rooms[b as usize]);
-        let way = |area: Convex| (area.centre(), area.breadth());
-        Change {
-            rooms: [a, b],
-            across: Segment::new(Point::new(rect.x0, rect.y0), Point::new(rect.x1, rect.y1)),
-            ways: [way(shared(one, other, rect)), way(shared(other, one, rect))],
-        }
+    let change = |(a, b): (u32, u32), common: &Convex, within: Rect| {
+        let Rect { x0, y0, x1, y1 } = within;
+        let across = Segment::new(Point::new(x0, y0), Point::new(x1, y1));
+        let area = part_of(common.clone(), within);
+        Change { rooms: [a, b], across, at: area.centre(), width: area.breadth() }
     };
     if let Some(turning) = turning {
         return overlaps
             .iter()
-            .filter_map(|(&pair, common)| Some(change(pair, largest_within(turning, common)?)))
+            .filter_map(|(&pair, common)| Some(change(pair, common, largest_within(turning, common)?)))
             .collect();
     }
     let layers = (&**from, &**to);
     let is_needed =
         |pair: (u32, u32), common: &Convex| !is_thin(common) || !has_thicker_beside(&overlaps, layers, pair);
     let needed = overlaps.iter().filter(|(pair, common)| is_needed(**pair, common));
-    needed.map(|(&pair, common)| change(pair, common.bounds())).collect()
+    needed.map(|(&pair, common)| change(pair, common, common.bounds())).collect()
 }
 
 fn is_thin(overlap: &Convex) -> bool {

@@ -4,6 +4,7 @@
 use std::collections::HashMap;
 
 use geo::{ConvexHull, Coord, LineString};
+use rstar::primitives::CachedEnvelope;
 use rstar::{AABB, RTree, RTreeObject};
 use spade::handles::{FixedVertexHandle, OUTER_FACE};
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
@@ -233,6 +234,7 @@ impl Mesh {
     }
 }
 
+#[derive(Clone, Copy)]
 struct Side(Segment);
 
 impl RTreeObject for Side {
@@ -246,7 +248,8 @@ impl RTreeObject for Side {
 
 /// Which faces are free: those that constraints part are asked one by one.
 fn free_faces(cdt: &Cdt, free: &Rings) -> Vec<bool> {
-    let index = RTree::bulk_load(free.iter().flat_map(|ring| sides(ring)).map(Side).collect());
+    let all = free.iter().flat_map(|ring| sides(ring)).map(|side| CachedEnvelope::new(Side(side)));
+    let index = RTree::bulk_load(all.collect());
     let mut is_free = vec![false; cdt.num_all_faces()];
     let mut is_known = vec![false; cdt.num_all_faces()];
     is_known[OUTER_FACE.index()] = true;

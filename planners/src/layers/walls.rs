@@ -1,6 +1,7 @@
 //! Everything solid of a world as rings of corners, with as few corners as tell where discs and bodies can be.
 
 use rayon::prelude::*;
+use rstar::primitives::CachedEnvelope;
 use rstar::{AABB, RTree, RTreeObject};
 
 use super::traced::{outlines, simplified};
@@ -39,7 +40,7 @@ struct Ring {
 pub(super) struct Walls {
     rings: Vec<Ring>,
     /// Their straight sides, found by where they are.
-    sides: RTree<Side>,
+    sides: RTree<CachedEnvelope<Side>>,
 }
 
 impl Walls {
@@ -93,7 +94,7 @@ impl Walls {
             rings.push(corners);
         }
         let lines = rings.iter().flat_map(|ring| lines(ring)).chain(polygon::sides(&edge.corners));
-        let index = RTree::bulk_load(lines.map(Line).collect());
+        let index = RTree::bulk_load(lines.map(|line| CachedEnvelope::new(Line(line))).collect());
         rings.par_iter_mut().for_each(|ring| find_tight(ring, &index, [across, most]));
         rings
     }
@@ -106,8 +107,12 @@ impl Walls {
 }
 
 /// The straight sides of rings that are numbered from a number on.
-fn sides_of(rings: &[Ring], first: usize) -> impl Iterator<Item = Side> + '_ {
-    rings.iter().enumerate().flat_map(move |(number, ring)| ring.sides(first + number))
+fn sides_of(rings: &[Ring], first: usize) -> impl Iterator<Item = CachedEnvelope<Side>> + '_ {
+    rings
+        .iter()
+        .enumerate()
+        .flat_map(move |(number, ring)| ring.sides(first + number))
+        .map(CachedEnvelope::new)
 }
 
 fn lines(ring: &[Corner]) -> impl Iterator<Item = Segment> + '_ {
@@ -120,7 +125,7 @@ const DIPPED: f64 = 0.8;
 
 /// Finds where something is so near to a corner that a coarse arc about it might close the gap: straight ahead of it, not along
 /// its own wall. Where the gap is too narrow for the disc, what it touches from where it comes furthest into it.
-fn find_tight(ring: &mut [Corner], index: &RTree<Line>, [across, most]: [f64; 2]) {
+fn find_tight(ring: &mut [Corner], index: &RTree<CachedEnvelope<Line>>, [across, most]: [f64; 2]) {
     let count = ring.len();
     for number in 0..count {
         let here = ring[number].at;
@@ -131,7 +136,7 @@ fn find_tight(ring: &mut [Corner], index: &RTree<Line>, [across, most]: [f64; 2]
         }
         let near = index.locate_in_envelope_intersecting(around(Segment::new(here, here), most));
         let mut tight = Vec::new();
-        for Line(line) in near {
+        for Line(line) in near.map(|line| &**line) {
             let way = line.nearest_to(here) - here;
             let length = way.length();
             let is_ahead = way.dot(come) >= -ROUNDING_M && way.dot(go) <= ROUNDING_M;

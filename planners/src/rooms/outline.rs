@@ -37,8 +37,15 @@ pub fn shared(one: &Convex, other: &Convex, within: Rect) -> Convex {
     if one.rect().is_some() && other.rect().is_some() {
         return within.into();
     }
-    let common = one.common(other).and_then(|common| common.common(&within.into()));
-    common.unwrap_or_else(|| within.into())
+    one.common(other).map_or_else(|| within.into(), |common| part_of(common, within))
+}
+
+/// The part of what two rooms share that lies within a rectangle; all of that where it is thinner than numbers tell.
+pub(crate) fn part_of(common: Convex, within: Rect) -> Convex {
+    if within.encloses(&common.bounds()) {
+        return common;
+    }
+    common.common(&within.into()).unwrap_or_else(|| within.into())
 }
 
 fn corners(text: &str) -> Option<Vec<Point>> {
