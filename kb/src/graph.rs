@@ -23,6 +23,7 @@ use adit_db::room::Room;
 use adit_db::schema::Row;
 use adit_db::space::Doorway;
 use adit_db::weight::Weight;
+use adit_planners::geometry::tolerance::SNAP_M;
 use adit_planners::geometry::{Convex, Point, Segment};
 use adit_planners::rooms::outline;
 use adit_planners::routes::{
@@ -242,9 +243,9 @@ impl SiteGraph {
         doors: impl IndexedParallelIterator<Item = (DoorIndex, Weight)>,
         building: &Arc<Building>,
     ) {
-        let (rooms, doors) =
-            (put(&mut self.rooms, rooms, RoomIndex::index), put(&mut self.doors, doors, DoorIndex::index));
-        self.weigh(rooms.into_iter(), doors.into_iter(), building);
+        let rooms = put(&mut self.rooms, rooms, RoomIndex::index, walked);
+        let doors = put(&mut self.doors, doors, DoorIndex::index, passed);
+        self.weigh(rooms, doors, building);
     }
 
     /// Takes over the weights of some rooms and doors of another copy, and gives some other weights.
@@ -262,34 +263,20 @@ impl SiteGraph {
         for &door in late_doors {
             self.doors[door.index()].clone_from(&from[door]);
         }
-        let (rooms, doors) =
-            (put(&mut self.rooms, rooms, RoomIndex::index), put(&mut self.doors, doors, DoorIndex::index));
-        self.weigh(
-            late_rooms.iter().copied().chain(rooms),
-            late_doors.iter().copied().chain(doors),
-            building,
-        );
+        let mut rooms = put(&mut self.rooms, rooms, RoomIndex::index, walked);
+        let mut doors = put(&mut self.doors, doors, DoorIndex::index, passed);
+        rooms.extend(late_rooms.iter().map(|&room| walked(room, &self[room])));
+        doors.extend(late_doors.iter().map(|&door| passed(door, &self[door])));
+        self.weigh(rooms, doors, building);
     }
 
     /// Lets searches see the weights of these rows.
-    fn weigh(
-        &mut self,
-        rooms: impl Iterator<Item = RoomIndex>,
-        doors: impl Iterator<Item = DoorIndex>,
-        building: &Arc<Building>,
-    ) {
-        let rooms: Vec<_> = rooms.map(|room| (room, walking_in(&self[room]))).collect();
-        let weighed = |index: DoorIndex| {
-            let door = &self[index];
-            (index, door.hardness.value, door.passable.value.unwrap_or(false))
-        };
-        let doors: Vec<_> = doors.map(weighed).collect();
+    fn weigh(&mut self, rooms: Vec<(RoomIndex, Walking)>, doors: Vec<Passed>, building: &Arc<Building>) {
         let is_other = self.building != *building;
         let mut is_closed_otherwise = is_other;
-        for (door, _, _) in &doors {
-            let is_closed = is_told_closed(&self[*door]);
+        for Passed { door, is_told_closed, .. } in &doors {
             is_closed_otherwise |=
-                if is_closed { self.closed.insert(*door) } else { self.closed.remove(door) };
+                if *is_told_closed { self.closed.insert(*door) } else { self.closed.remove(door) };
         }
         if is_other {
             self.building = Arc::clone(building);
@@ -300,9 +287,9 @@ impl SiteGraph {
             self.close();
         }
         if let Some(texts) = &mut self.texts {
-            texts.forget(rooms.iter().map(|(room, _)| *room), doors.iter().map(|(door, _, _)| *door));
+            texts.forget(rooms.iter().map(|(room, _)| *room), doors.iter().map(|passed| passed.door));
         }
-        self.graph.reweigh(rooms, doors);
+        self.graph.reweigh(rooms, doors.into_iter().map(|of| (of.door, of.hardness, of.passable)));
     }
 
     /// The room with this key.
@@ -467,21 +454,36 @@ fn route_doors(
     keys: &HashMap<i64, RoomIndex>,
     rooms: &[RouteRoom],
 ) -> Vec<Option<RouteDoor>> {
-    let ends = |door: &Door| Some([*keys.get(&door.side1.room)?, *keys.get(&door.side2.room)?]);
-    let there: Vec<Option<usize>> = doors.par_iter().map(|door| there_of(door, doors)).collect();
-    // what is cut for the way there is not cut again for the way back
-    let crossing = |(door, there): (&Door, &Option<usize>)| {
-        let ends = ends(door).filter(|_| there.is_none())?;
-        Some(crossing_of(door, ends.map(|room| &rooms[room.index()].outline)))
+    let room = |key: i64| keys.get(&key).map_or(RoomIndex::end(), |room| *room);
+    let crossing = |door: &Door, ends: [RoomIndex; 2]| {
+        let is_known = !ends.contains(&RoomIndex::end());
+        is_known.then(|| crossing_of(door, ends.map(|room| &rooms[room.index()].outline)))
     };
-    let crossings: Vec<Option<Crossing>> = doors.par_iter().zip(&there).map(crossing).collect();
+    let is_back = |door: &Door, [from, to]: [RoomIndex; 2]| door.kind == DoorKind::Change && from > to;
+    let first = |door: &Door| {
+        let ends = [room(door.side1.room), room(door.side2.room)];
+        (ends, if is_back(door, ends) { None } else { crossing(door, ends) })
+    };
+    let (ends, crossings): (Vec<[RoomIndex; 2]>, Vec<Option<Crossing>>) = doors.par_iter().map(first).unzip();
+    // what is cut for the way there is not cut again for the way back; doors mostly stand in the order of their rooms
+    let there = |door: &Door, [from, to]: [RoomIndex; 2]| {
+        let there = ends.binary_search(&[to, from]).ok()?;
+        let [x0, y0, x1, y1] = door.segment;
+        let within = Segment::new(Point::new(x0, y0), Point::new(x1, y1)).bounds().grown(SNAP_M);
+        crossings[there].as_ref().filter(|area| within.encloses(&area.bounds())).cloned()
+    };
     let route_door = |(place, door): (usize, &Door)| {
-        let [room1, room2] = ends(door)?;
+        let [room1, room2] = ends[place];
+        let crossing = if is_back(door, ends[place]) {
+            there(door, ends[place]).or_else(|| crossing(door, ends[place]))?
+        } else {
+            crossings[place].clone()?
+        };
         Some(RouteDoor {
             door: u32::try_from(door.door).ok()?,
             room1,
             room2,
-            crossing: crossings[there[place].unwrap_or(place)].clone()?,
+            crossing,
             at: Point::new(door.at[0], door.at[1]),
             hardness: door.hardness.value,
             passable: door.passable.value.unwrap_or(false),
@@ -491,35 +493,46 @@ fn route_doors(
     doors.par_iter().enumerate().map(route_door).collect()
 }
 
-/// Of a change of shape back the place of the same change there, if doors stand in the order of their rooms.
-fn there_of(back: &Door, doors: &[Door]) -> Option<usize> {
-    let pair = (back.side2.room, back.side1.room);
-    if back.kind != DoorKind::Change || pair.0 >= pair.1 {
-        return None;
-    }
-    let there = doors.binary_search_by_key(&pair, |door| (door.side1.room, door.side2.room)).ok()?;
-    let is_same = doors[there].kind == back.kind
-        && doors[there].segment.map(f64::to_bits) == back.segment.map(f64::to_bits);
-    is_same.then_some(there)
+/// What a search sees of a door that weighs otherwise.
+struct Passed {
+    door: DoorIndex,
+    hardness: Option<f64>,
+    passable: bool,
+    is_told_closed: bool,
 }
 
-/// Writes weights into rows, of each of which there is one at most, in their order; of which rows.
-fn put<R: Row + Send, I: Copy + Send>(
+fn passed(index: DoorIndex, door: &Door) -> Passed {
+    Passed {
+        door: index,
+        hardness: door.hardness.value,
+        passable: door.passable.value.unwrap_or(false),
+        is_told_closed: is_told_closed(door),
+    }
+}
+
+fn walked(index: RoomIndex, room: &Room) -> (RoomIndex, Walking) {
+    (index, walking_in(room))
+}
+
+/// Writes weights into rows, of each of which there is one at most, in their order; what is seen of these rows then.
+fn put<R: Row + Send, I: Copy + Send, S: Send>(
     rows: &mut [R],
     weights: impl IndexedParallelIterator<Item = (I, Weight)>,
     place: fn(I) -> usize,
-) -> Vec<I> {
+    seen: fn(I, &R) -> S,
+) -> Vec<S> {
     if weights.len() == rows.len() {
         let put = |(row, (index, weight)): (&mut R, (I, Weight))| {
             row.weigh(weight);
-            index
+            seen(index, row)
         };
         return rows.par_iter_mut().zip(weights).map(put).collect();
     }
     let weights: Vec<(I, Weight)> = weights.collect();
     let put = |(index, weight): (I, Weight)| {
-        rows[place(index)].weigh(weight);
-        index
+        let row = &mut rows[place(index)];
+        row.weigh(weight);
+        seen(index, row)
     };
     weights.into_iter().map(put).collect()
 }

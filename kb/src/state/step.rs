@@ -464,7 +464,16 @@ impl Laying {
         let rooms = rows.rooms.unwrap_or_else(|| before.rooms.clone());
         let doors = rows.doors.unwrap_or_else(|| before.doors.clone());
         let building = Arc::clone(&before.building);
-        Self { doors: doors.len(), graph: thread::spawn(|| SiteGraph::new(rooms, doors, places, building)) }
+        let count = doors.len();
+        let graph = || {
+            let is_measured = rooms.iter().any(|room| room.layer.is_some());
+            let graph = SiteGraph::new(rooms, doors, places, building);
+            if is_measured {
+                graph.graph().lay();
+            }
+            graph
+        };
+        Self { doors: count, graph: thread::spawn(graph) }
     }
 
     fn made(self) -> SiteGraph {

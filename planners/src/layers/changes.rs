@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use rayon::prelude::*;
+
 use super::footprint::FACINGS;
 use super::known::KnownLayers;
 use super::layer::Placed;
@@ -21,12 +23,11 @@ pub(super) fn changes(
         Pair { layers: [from, to].map(|placed| Arc::clone(&placed.layer)), turn: turn(from, to) }
     };
     let found = known.changes(&pairs.iter().map(of_layers).collect::<Vec<_>>())?;
-    let mut all = Vec::with_capacity(2 * found.iter().map(|changes| changes.len()).sum::<usize>());
-    for (&(from, to), changes) in pairs.iter().zip(&found) {
+    let of_pair = |(&(from, to), changes): (&(usize, usize), &Arc<Vec<Change>>)| {
         let first = [stack[from].first, stack[to].first];
-        all.extend(changes.iter().flat_map(|change| there_and_back(first, change)));
-    }
-    Ok(all)
+        changes.iter().flat_map(|change| there_and_back(first, change)).collect::<Vec<_>>()
+    };
+    Ok(pairs.par_iter().zip(&found).flat_map_iter(of_pair).collect())
 }
 
 fn turn(from: &Placed, to: &Placed) -> Option<Turn> {

@@ -1,5 +1,7 @@
 //! The planner that asserts the rooms and doors of all layers.
 
+use rayon::prelude::*;
+
 use super::{Crossing, Kind, KnownLayers, Room, State, cut_layers_anew};
 use crate::facts::Facts;
 use crate::overlays::{AREAS, MEMBERS_GIVE, member_facts};
@@ -69,8 +71,8 @@ impl Planner for RoomsByState {
             width: crossing.width,
             is_change: crossing.kind == Kind::Change,
         };
-        let rooms: Vec<RoomRow> = layers.rooms.iter().map(room).collect();
-        let doors: Vec<DoorRow> = layers.crossings.iter().map(door).collect();
+        let rooms: Vec<RoomRow> = layers.rooms.par_iter().map(room).collect();
+        let doors: Vec<DoorRow> = layers.crossings.par_iter().map(door).collect();
         let keyed = |pairs: &[(usize, usize)]| -> Vec<(usize, usize)> {
             pairs.iter().map(|&(room, named)| (room + 1, named)).collect()
         };

@@ -3,12 +3,12 @@
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
 use std::ops::{Index, Range};
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 use fixedbitset::FixedBitSet;
 
 use super::hierarchy::Hierarchy;
-use super::mesh::{Exit, Exits};
+use super::mesh::{Exit, Exits, Mesh};
 use super::parts::{DoorIndex, Passing, RoomIndex, RouteDoor, RouteRoom, Walking};
 use super::turning::Turning;
 use crate::geometry::{Rect, Segment};
@@ -22,6 +22,8 @@ pub struct RouteGraph {
     pub(super) measured: usize,
     pub(super) hierarchy: Option<Hierarchy>,
     pub(super) exits: Exits,
+    /// Found when first asked for.
+    mesh: OnceLock<Arc<Mesh>>,
     /// Found when first asked for.
     turning: OnceLock<Box<Turning>>,
     /// The doors into each room; found when first asked for.
@@ -47,6 +49,7 @@ impl RouteGraph {
             measured,
             hierarchy: None,
             exits,
+            mesh: OnceLock::new(),
             turning: OnceLock::new(),
             entries: OnceLock::new(),
             closed: Vec::new(),
@@ -59,6 +62,7 @@ impl RouteGraph {
     /// Lets ways turn back at some doors, where rooms weigh their metres: elsewhere none is better for it, and none is looked for.
     pub fn turn_back_at(&mut self, doors: impl IntoIterator<Item = DoorIndex>) {
         self.turns = doors.into_iter().map(DoorIndex::index).collect();
+        self.mesh.take();
         self.turning.take();
         self.cut.take();
     }
@@ -87,8 +91,19 @@ impl RouteGraph {
     pub(super) fn turning(&self) -> &Turning {
         self.turning.get_or_init(|| {
             let passing = self.door_indices().map(|door| self.passing_of(door)).collect();
-            Box::new(Turning::new(&self.rooms, &self.doors, passing, &self.turns))
+            Box::new(Turning::new(&self.rooms, &self.doors, passing, Arc::clone(self.mesh())))
         })
+    }
+
+    /// Where doors end, whatever they weigh. Searches find it when they need it first; it may be asked for before it is known what
+    /// rooms and doors weigh.
+    pub(super) fn mesh(&self) -> &Arc<Mesh> {
+        self.mesh.get_or_init(|| Arc::new(Mesh::new(self.rooms.len(), &self.doors, &self.turns)))
+    }
+
+    /// Finds what searches where rooms weigh their metres need to know of rooms and doors, whatever these weigh.
+    pub fn lay(&self) {
+        self.mesh();
     }
 
     /// Takes over what is known of where changes of shape pay in another graph.

@@ -6,9 +6,7 @@ use std::collections::{BTreeMap, HashMap};
 use std::num::NonZero;
 use std::panic::resume_unwind;
 use std::sync::{Arc, OnceLock};
-use std::thread;
-
-use fixedbitset::FixedBitSet;
+use std::{array, thread};
 
 use super::cone::Segment;
 use super::mesh::{Mesh, NONE};
@@ -27,15 +25,15 @@ pub(super) struct Gate {
 
 #[derive(Clone, Debug)]
 pub(super) struct Turning {
-    pub mesh: Mesh,
+    pub mesh: Arc<Mesh>,
     /// For each end of a door whether a way may bend there.
     bends: Vec<bool>,
     /// The ends about which one does not come from each room into each other one at no cost, with these rooms, by [`Mesh::parts`].
     parts: HashMap<u32, Vec<(RoomIndex, RoomIndex)>>,
     /// For each door what passing it changes.
     passing: Vec<Passing>,
-    /// What clones find, all have, as long as nothing that a gate hangs on is otherwise in one of them.
-    gates: Arc<Vec<Arc<Gates>>>,
+    /// Door by door, in blocks. What clones find, all have, as long as nothing that a gate hangs on is otherwise in one of them.
+    gates: Arc<Vec<Arc<Block>>>,
     /// From which layer into which one several changes cost less than one, somewhere, and what they cost at least; found when
     /// first asked for.
     pub sequences: OnceLock<BTreeMap<(u32, u32), f64>>,
@@ -43,6 +41,11 @@ pub(super) struct Turning {
 
 /// Where it may pay to begin a change, in each direction, and whichever of its rooms is easier; found when first asked for.
 type Gates = [[OnceLock<Box<[Gate]>>; 3]; 2];
+
+/// The gates of some doors one after the other; most doors are never asked about.
+type Block = [OnceLock<Arc<Gates>>; BLOCK];
+
+const BLOCK: usize = 64;
 
 /// So many ends are looked at on one thread.
 const ENDS: usize = 20_000;
@@ -54,9 +57,8 @@ const REACH_M: f64 = 1.0;
 const MANY: usize = 64;
 
 impl Turning {
-    pub fn new(rooms: &[RouteRoom], doors: &[RouteDoor], passing: Vec<Passing>, turns: &FixedBitSet) -> Self {
-        let mesh = Mesh::new(rooms.len(), doors, turns);
-        let gates = Arc::new(doors.iter().map(|_| Arc::default()).collect());
+    pub fn new(rooms: &[RouteRoom], doors: &[RouteDoor], passing: Vec<Passing>, mesh: Arc<Mesh>) -> Self {
+        let gates = Arc::new(blocks(doors.len(), |_| OnceLock::new()));
         let mut all = Self {
             bends: vec![false; mesh.ends_count()],
             parts: HashMap::new(),
@@ -90,7 +92,12 @@ impl Turning {
         (side, order): (usize, Ordering),
         find: impl FnOnce() -> Box<[Gate]>,
     ) -> &[Gate] {
-        self.gates[door.index()][side][(order as i8 + 1) as usize].get_or_init(find)
+        let gates = self.known_gates(door).get_or_init(Arc::default);
+        gates[side][(order as i8 + 1) as usize].get_or_init(find)
+    }
+
+    fn known_gates(&self, door: DoorIndex) -> &OnceLock<Arc<Gates>> {
+        &self.gates[door.index() / BLOCK][door.index() % BLOCK]
     }
 
     /// Has the gates that are known of another graph's doors for these ones.
@@ -98,10 +105,9 @@ impl Turning {
     /// # Arguments
     /// `doors` gives each door the other graph's that is the same change between the same rooms.
     pub fn know_gates(&mut self, of: &Self, doors: impl Iterator<Item = Option<DoorIndex>>) {
-        let known = |door: Option<DoorIndex>| {
-            door.map_or_else(Arc::default, |door| Arc::new(Gates::clone(&of.gates[door.index()])))
-        };
-        self.gates = Arc::new(doors.map(known).collect());
+        let known = |door: DoorIndex| of.known_gates(door).get().map(|gates| Arc::new(Gates::clone(gates)));
+        let mut doors = doors.map(|door| door.and_then(known).map_or_else(OnceLock::new, OnceLock::from));
+        self.gates = Arc::new(blocks(self.passing.len(), |_| doors.next().unwrap_or_default()));
     }
 
     /// Forgets the gates of changes between rooms that these doors come near to.
@@ -111,13 +117,19 @@ impl Turning {
         }
         let about: Vec<Rect> =
             which.iter().map(|door| doors[door.index()].crossing.bounds().grown(REACH_M)).collect();
+        if about.len() > MANY {
+            self.gates = Arc::new(blocks(doors.len(), |_| OnceLock::new()));
+            return;
+        }
         let is_near = |door: &RouteDoor| {
             let rooms = [door.room1, door.room2].map(|room| rooms[room.index()].outline.bounds());
-            about.len() > MANY || about.iter().any(|about| rooms.iter().any(|room| about.overlaps(room)))
+            about.iter().any(|about| rooms.iter().any(|room| about.overlaps(room)))
         };
-        let gates = Arc::make_mut(&mut self.gates);
-        for (gates, _) in gates.iter_mut().zip(doors).filter(|(_, door)| door.is_change() && is_near(door)) {
-            *gates = Arc::default();
+        let blocks = Arc::make_mut(&mut self.gates);
+        for (door, _) in doors.iter().enumerate().filter(|(_, door)| door.is_change() && is_near(door)) {
+            if blocks[door / BLOCK][door % BLOCK].get().is_some() {
+                Arc::make_mut(&mut blocks[door / BLOCK])[door % BLOCK] = OnceLock::new();
+            }
         }
     }
 
@@ -159,6 +171,17 @@ impl Turning {
             }
         }
     }
+}
+
+/// What is known of the gates of so many doors, door by door.
+fn blocks(doors: usize, mut of: impl FnMut(usize) -> OnceLock<Arc<Gates>>) -> Vec<Arc<Block>> {
+    let mut block = |first: usize| {
+        Arc::new(array::from_fn(|place| {
+            let door = first * BLOCK + place;
+            if door < doors { of(door) } else { OnceLock::new() }
+        }))
+    };
+    (0..doors.div_ceil(BLOCK)).map(&mut block).collect()
 }
 
 /// What comes of each of many, on as many threads as there are cores. Threads of a pool that wait for one graph's turning might have
