@@ -239,8 +239,8 @@ impl SiteGraph {
     /// Gives rooms and doors other weights.
     pub fn write(
         &mut self,
-        rooms: impl IndexedParallelIterator<Item = (RoomIndex, Weight)>,
-        doors: impl IndexedParallelIterator<Item = (DoorIndex, Weight)>,
+        rooms: impl IntoParallelIterator<Iter: IndexedParallelIterator, Item = (RoomIndex, Weight)>,
+        doors: impl IntoParallelIterator<Iter: IndexedParallelIterator, Item = (DoorIndex, Weight)>,
         building: &Arc<Building>,
     ) {
         let rooms = put(&mut self.rooms, rooms, RoomIndex::index, walked);
@@ -253,8 +253,8 @@ impl SiteGraph {
         &mut self,
         from: &Self,
         (late_rooms, late_doors): (&[RoomIndex], &[DoorIndex]),
-        rooms: impl IndexedParallelIterator<Item = (RoomIndex, Weight)>,
-        doors: impl IndexedParallelIterator<Item = (DoorIndex, Weight)>,
+        rooms: impl IntoParallelIterator<Iter: IndexedParallelIterator, Item = (RoomIndex, Weight)>,
+        doors: impl IntoParallelIterator<Iter: IndexedParallelIterator, Item = (DoorIndex, Weight)>,
         building: &Arc<Building>,
     ) {
         for &room in late_rooms {
@@ -517,10 +517,11 @@ fn walked(index: RoomIndex, room: &Room) -> (RoomIndex, Walking) {
 /// Writes weights into rows, of each of which there is one at most, in their order; what is seen of these rows then.
 fn put<R: Row + Send, I: Copy + Send, S: Send>(
     rows: &mut [R],
-    weights: impl IndexedParallelIterator<Item = (I, Weight)>,
+    weights: impl IntoParallelIterator<Iter: IndexedParallelIterator, Item = (I, Weight)>,
     place: fn(I) -> usize,
     seen: fn(I, &R) -> S,
 ) -> Vec<S> {
+    let weights = weights.into_par_iter();
     if weights.len() == rows.len() {
         let put = |(row, (index, weight)): (&mut R, (I, Weight))| {
             row.weigh(weight);
