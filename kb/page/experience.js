@@ -2,7 +2,7 @@
 
 import { call, get, path } from './api.js';
 import { button, byId, el, fill, grid, refill, sure } from './dom.js';
-import { count, exact, number, value } from './format.js';
+import { asSentence, count, exact, number, value } from './format.js';
 import { model } from './model.js';
 import { said } from './notice.js';
 import { cellId, editCell, keyName } from './pending.js';
@@ -76,7 +76,7 @@ async function load() {
   try {
     const fit = await get(path('/api/fit', { robot: model.ask.robot, measure: wanted }));
     const rows = fit.cells.map((cell) => [keyName(cell.key), cell.column, value(cell.present), el('b', { text: known(cell) ? exact(rounded(cell)) : 'cannot be estimated' }), cell.low === null ? '' : `${number(cell.low)} to ${number(cell.high)}`, String(cell.observations ?? ''), takeButton(cell)]);
-    const notes = (fit.notes ?? []).map((text) => el('p', { class: 'hint', text }));
+    const notes = (fit.notes ?? []).map((note) => el('p', { class: 'hint', text: asSentence(note) }));
     const taken = fit.cells.filter(isTaken).length;
     const pending = taken ? el('p', {}, `${taken} taken. `, el('a', { href: '#map', text: 'See on the map what they would change, and save' })) : null;
     refill(byId('fit'), measureChoice(), fit.cells.length ? grid('Proposed values', ['of', 'what', 'now', 'proposed', '95 % between', 'from', ''], rows) : el('p', { class: 'hint', text: 'Nothing to propose yet.' }), ...notes, pending);

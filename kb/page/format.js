@@ -47,6 +47,9 @@ export function taken(amounts, measures) {
 /** `2 doors`, `1 room`, `no routes`. */
 export const count = (n, noun) => `${n === 0 ? 'no' : n.toLocaleString('en')} ${noun}${n === 1 ? '' : 's'}`;
 
+/** What the service says of something in a line, as a sentence that stands alone. */
+export const asSentence = (note) => `${note[0].toUpperCase()}${note.slice(1)}.`;
+
 /** A value of a cell. */
 export function value(of) {
   if (of === null || of === undefined) return 'nothing';

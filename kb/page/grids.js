@@ -2,6 +2,7 @@
 
 import { post } from './api.js';
 import { button, debounced, el, fill } from './dom.js';
+import { asSentence } from './format.js';
 
 const WAIT = 300;
 
@@ -44,7 +45,7 @@ function table(grid) {
   const names = el('tr', {}, el('th', { scope: 'col' }, el('span', { class: 'unseen', text: 'row' })), ...given.map((text) => el('th', { scope: 'col' }, el('span', { class: 'unseen', text: 'given ' }), text)), ...outputs.map((text, at) => el('th', { scope: 'col', class: at ? null : 'first-output' }, el('span', { class: 'unseen', text: 'set ' }), text)));
   const groups = el('tr', { 'aria-hidden': 'true' }, el('td'), el('td', { colspan: String(given.length), text: 'given' }), outputs.length ? el('td', { class: 'first-output', colspan: String(outputs.length), text: 'set' }) : null);
   const made = el('table', { class: 'decisions' }, el('caption', { class: 'unseen', text: `Decision table ${name}` }), el('thead', {}, groups, names), el('tbody', {}, ...rows.map((of, index) => row({ amiss }, of, index)), missing({ ...grid, set: outputs })));
-  const said = amiss.map(({ message, help }) => el('li', {}, `${message[0].toUpperCase()}${message.slice(1)}.`, help ? el('span', { class: 'hint', text: ` ${help[0].toUpperCase()}${help.slice(1)}.` }) : null));
+  const said = amiss.map(({ message, help }) => el('li', {}, asSentence(message), help ? el('span', { class: 'hint', text: ` ${asSentence(help)}` }) : null));
   return el('section', { class: 'card', 'aria-label': `Decision table ${name}` }, el('div', { class: 'file-head' }, el('h2', {}, name), button(`Line ${line}`, () => go(line), { class: 'link', 'aria-label': `Show ${name} in line ${line}` })),
     el('p', { class: 'hint', text: `${HIT[hit]}${counted}` }), el('div', { class: 'scroll', tabindex: '0', role: 'region', 'aria-label': `Rows of ${name}` }, made), said.length ? el('ul', { class: 'plain problems' }, ...said) : null);
 }

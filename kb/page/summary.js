@@ -57,11 +57,11 @@ export function summary(preview) {
   const compared = routes?.compared ?? routes?.total ?? 0;
   if (routes?.total && !compared) parts.push(`${count(routes.total, 'route')} between places are too many to compare while you type.`);
   else if (routes?.total) {
-    const all = compared < routes.total ? `${compared} of ${count(routes.total, 'route')} between places that were compared in time` : `${count(routes.total, 'route')} between places`;
-    const kinds = [['shorter', 'cheaper'], ['longer', 'dearer'], ['lost', 'lost'], ['found', 'possible at all']].filter(([name]) => routes[name]).map(([name, word]) => `${routes[name]} ${word === 'lost' ? (routes[name] === 1 ? 'is' : 'are') : routes[name] === 1 ? 'becomes' : 'become'} ${word}`);
-    const ways = routes.rerouted ? `${routes.rerouted} ${routes.rerouted === 1 ? 'leads' : 'lead'} another way` : '';
+    const all = compared < routes.total ? `the ${compared.toLocaleString('en')} of ${count(routes.total, 'route')} between places that were compared in time` : `${count(routes.total, 'route')} between places`;
+    const kinds = [['shorter', 'cheaper'], ['longer', 'dearer'], ['lost', 'lost'], ['found', 'possible at all']].filter(([name]) => routes[name]).map(([name, word]) => `${routes[name].toLocaleString('en')} ${word === 'lost' ? (routes[name] === 1 ? 'is' : 'are') : routes[name] === 1 ? 'becomes' : 'become'} ${word}`);
+    const ways = routes.rerouted ? `${routes.rerouted.toLocaleString('en')} ${routes.rerouted === 1 ? 'leads' : 'lead'} another way` : '';
     parts.push(routes.changed || routes.rerouted
-      ? `Of ${all} ${list([...kinds, ways].filter(Boolean))}.`
+      ? `Of ${all}, ${list([...kinds, ways].filter(Boolean))}.`
       : `None of ${all} changes.`);
   }
   return parts;

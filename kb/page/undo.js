@@ -2,7 +2,7 @@
 
 import { get, path, post } from './api.js';
 import { sure } from './dom.js';
-import { count } from './format.js';
+import { asSentence, count } from './format.js';
 import { rowOf } from './history-words.js';
 import { model } from './model.js';
 import { allPass, summary } from './summary.js';
@@ -16,7 +16,6 @@ function testsOf({ rules }) {
   return rules.failed ? `${count(rules.failed, 'test')} of the rules would fail.` : rules.passed ? allPass(rules.passed) : '';
 }
 
-const asSentence = (note) => `${note[0].toUpperCase()}${note.slice(1)}.`;
 
 /** What comes back to the map, and what goes from it: the outlines as those of what waits. */
 async function shapesOf(numbers) {
