@@ -470,7 +470,8 @@ fn route_doors(
         let there = ends.binary_search(&[to, from]).ok()?;
         let [x0, y0, x1, y1] = door.segment;
         let within = Segment::new(Point::new(x0, y0), Point::new(x1, y1)).bounds().grown(SNAP_M);
-        crossings[there].as_ref().filter(|area| within.encloses(&area.bounds())).cloned()
+        let is_same = |there: &&Crossing| there.area().is_some_and(|area| within.encloses(&area.bounds()));
+        crossings[there].as_ref().filter(is_same).cloned()
     };
     let route_door = |(place, door): (usize, &Door)| {
         let [room1, room2] = ends[place];

@@ -469,7 +469,7 @@ impl Laying {
             let is_measured = rooms.iter().any(|room| room.layer.is_some());
             let graph = SiteGraph::new(rooms, doors, places, building);
             if is_measured {
-                graph.graph().lay();
+                graph.graph().prepare_mesh();
             }
             graph
         };

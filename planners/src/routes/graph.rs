@@ -102,7 +102,7 @@ impl RouteGraph {
     }
 
     /// Finds what searches where rooms weigh their metres need to know of rooms and doors, whatever these weigh.
-    pub fn lay(&self) {
+    pub fn prepare_mesh(&self) {
         self.mesh();
     }
 

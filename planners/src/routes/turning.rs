@@ -127,9 +127,8 @@ impl Turning {
         };
         let blocks = Arc::make_mut(&mut self.gates);
         for (door, _) in doors.iter().enumerate().filter(|(_, door)| door.is_change() && is_near(door)) {
-            if blocks[door / BLOCK][door % BLOCK].get().is_some() {
-                Arc::make_mut(&mut blocks[door / BLOCK])[door % BLOCK] = OnceLock::new();
-            }
+            // one that is not known yet, too: another copy may find it, as it is there
+            Arc::make_mut(&mut blocks[door / BLOCK])[door % BLOCK] = OnceLock::new();
         }
     }
 

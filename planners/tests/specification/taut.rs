@@ -276,6 +276,27 @@ proptest! {
     }
 
     #[test]
+    fn what_one_copy_finds_is_not_taken_by_another_that_weighs_otherwise(
+        blocks in blocks(), pipes in pipes(), from in point(), to in point(), change in 0.0..2.0_f64,
+        shut in prop::collection::vec(any::<prop::sample::Index>(), 1..4)
+    ) {
+        let new = || graph_of(&with_pipes(&blocks, &pipes), &three_shapes(), change);
+        let mut graph = new();
+        let portals: Vec<_> = graph.door_indices().filter(|&door| !graph[door].is_change()).collect();
+        prop_assume!(!portals.is_empty());
+        let shut: Vec<_> = shut.iter().map(|door| (*door.get(&portals), Some(0.0), false)).collect();
+        // both know where ways may turn, and hardly any gate
+        way(&graph, from, from);
+        let other = graph.clone();
+        graph.reweigh([], shut.clone());
+        let open = way(&other, from, to);
+        let mut fresh = new();
+        fresh.reweigh([], shut);
+        prop_assert_eq!(way(&graph, from, to), way(&fresh, from, to));
+        prop_assert_eq!(open, way(&new(), from, to));
+    }
+
+    #[test]
     fn no_way_crosses_a_closed_boundary_or_changes_shape_on_it(
         blocks in blocks(), pipes in pipes(), from in point(), to in point(), change in 0.0..2.0_f64,
         closed in prop::collection::vec(any::<prop::sample::Index>(), 1..5)
