@@ -19,6 +19,7 @@ pub use change::Changed;
 pub use report::{Outcome, Report, Tally};
 pub use settings::{Heuristic, Settings};
 
+use super::execution::Outlines;
 use super::experience::{Edge, EdgeId, Experience, Vertex, VertexId};
 use super::noted::{Noted, Removal};
 use super::probe::Probe;
@@ -69,6 +70,8 @@ pub struct Adapt {
     noted: Vec<Noted>,
     /// The edges whose paths passed the check before execution, and the state of the cell in which they did.
     checked: BTreeMap<EdgeId, Revision>,
+    /// What that check reads of the objects, and in which state of the cell.
+    outlines: Option<(Revision, Outlines)>,
 }
 
 impl Adapt {
@@ -88,7 +91,16 @@ impl Adapt {
         settings: Settings,
         progress: Progress,
     ) -> Self {
-        Self { cell, experience, plugins, settings, progress, noted: Vec::new(), checked: BTreeMap::new() }
+        Self {
+            cell,
+            experience,
+            plugins,
+            settings,
+            progress,
+            noted: Vec::new(),
+            checked: BTreeMap::new(),
+            outlines: None,
+        }
     }
 
     pub fn cell(&self) -> &Workcell {

@@ -1,7 +1,9 @@
 //! A task: from where the robot is to a goal (Chen 1994, Figure 1).
 
+use std::sync::Arc;
+
 use super::{Adapt, Outcome, Report};
-use crate::adapt::execution::{Outline, hit_of};
+use crate::adapt::execution::{Outline, Outlines, hit_of};
 use crate::adapt::experience::VertexId;
 use crate::adapt::judge::Judge;
 use crate::adapt::noted::Removal;
@@ -126,15 +128,13 @@ impl Adapt {
     /// The check before execution. What it refuses is known to be broken from then on; an edge that passed it is looked at
     /// again only against objects that changed since.
     fn is_executable(&mut self, parts: &[Part]) -> bool {
-        let mut outlines: Option<Vec<(Revision, Outline)>> = None;
         for part in parts {
             let edge = part.edge.and_then(|(a, b)| self.experience.edge(a, b)).map(|edge| edge.id);
             let checked = edge.and_then(|id| self.checked.get(&id).copied());
             if checked == Some(self.cell.revision()) {
                 continue;
             }
-            let ready = |placed: &Placed| (placed.since, Outline::of(&placed.object));
-            let outlines = outlines.get_or_insert_with(|| self.cell.placed().iter().map(ready).collect());
+            let outlines = self.outlines();
             let is_new = |(since, _): &&(Revision, Outline)| checked.is_none_or(|revision| *since > revision);
             let new = outlines.iter().filter(is_new).map(|(_, outline)| outline);
             let Some(hit) = hit_of(self.cell.robot().as_ref(), &new, &part.path) else {
@@ -149,6 +149,20 @@ impl Adapt {
             return false;
         }
         true
+    }
+
+    /// The outlines of the objects as they are now.
+    fn outlines(&mut self) -> Outlines {
+        let now = self.cell.revision();
+        if let Some((of, outlines)) = &self.outlines
+            && *of == now
+        {
+            return Arc::clone(outlines);
+        }
+        let ready = |placed: &Placed| (placed.since, Outline::of(&placed.object));
+        let outlines: Outlines = self.cell.placed().iter().map(ready).collect();
+        self.outlines = Some((now, Arc::clone(&outlines)));
+        outlines
     }
 }
 
