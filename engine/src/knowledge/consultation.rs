@@ -136,6 +136,11 @@ impl Consultation {
         self.direct.as_ref().map(|direct| direct.grains.as_slice())
     }
 
+    /// Whether an input may count: what the rules do not look at need not be found out.
+    pub fn looks_at(&self, input: usize) -> bool {
+        self.grains().and_then(|grains| grains.get(input)).is_none_or(|grain| *grain != Grain::Nothing)
+    }
+
     pub fn rules(&self) -> Arc<RuleBase> {
         Arc::clone(&self.rules)
     }

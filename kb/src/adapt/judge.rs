@@ -8,7 +8,7 @@ use adit_planners::adapt::{ChangeFacts, EdgeFacts, Judge, LandmarkFacts, Strateg
 
 use super::explain::Explained;
 use crate::plan::consult::Of::{self, Number, Perhaps, Text, Truth};
-use crate::plan::consult::{Class, Property, consult, meant, object, word_for};
+use crate::plan::consult::{Class, Property, consult, meant, object, object_of, word_for};
 use crate::plan::course::Asked;
 
 /// What rules are told of a change of a cell.
@@ -35,10 +35,10 @@ const fn landmarks<'o>() -> [Property<LandmarkFacts<'o>>; 7] {
     [
         ("object", Text(|of| Some(of.object))),
         ("distance", Number(|of| of.distance_m)),
-        ("clearance", Perhaps(|of| Some(of.clearance_m).filter(|metres| metres.is_finite()))),
+        ("clearance", Perhaps(|of| Some(of.clearance_m()).filter(|metres| metres.is_finite()))),
         ("is_movable", Truth(|of| of.is_movable)),
         ("times_moved", Number(|of| of.times_moved.into())),
-        ("subgoals", Number(|of| of.subgoals.into())),
+        ("subgoals", Number(|of| of.subgoals().into())),
         ("is_goal", Truth(|of| of.is_goal)),
     ]
 }
@@ -170,7 +170,10 @@ impl Judge for RuleJudge {
         if self.trouble.is_some() {
             return None;
         }
-        consult(&mut self.landmarks, &object(landmarks(), facts), &mut self.trouble);
+        // Who explains tells all that was known, whether rules look at it or not.
+        let is_told = |input| self.explained.is_some() || self.landmarks.looks_at(input);
+        let told = object_of(landmarks(), facts, is_told);
+        consult(&mut self.landmarks, &told, &mut self.trouble);
         if let Some(explained) = &mut self.explained {
             let answer = self
                 .landmarks

@@ -41,11 +41,25 @@ pub fn typed<F>(properties: impl IntoIterator<Item = Property<F>>) -> Vec<(&'sta
 
 /// The values of an object, in the order of its properties.
 pub fn object<F, const N: usize>(properties: [Property<F>; N], facts: &F) -> [Datum<'_>; N] {
-    properties.map(|(_, of)| match of {
-        Of::Number(of) => of(facts).into(),
-        Of::Perhaps(of) => of(facts).into(),
-        Of::Text(of) => of(facts).into(),
-        Of::Truth(of) => of(facts).into(),
+    object_of(properties, facts, |_| true)
+}
+
+/// The same, of which only those are told whose numbers are wanted.
+pub fn object_of<F, const N: usize>(
+    properties: [Property<F>; N],
+    facts: &F,
+    is_told: impl Fn(usize) -> bool,
+) -> [Datum<'_>; N] {
+    let mut input = 0..;
+    properties.map(|(_, of)| {
+        let is_told = input.next().is_some_and(&is_told);
+        match of {
+            _ if !is_told => Datum::Unknown,
+            Of::Number(of) => of(facts).into(),
+            Of::Perhaps(of) => of(facts).into(),
+            Of::Text(of) => of(facts).into(),
+            Of::Truth(of) => of(facts).into(),
+        }
     })
 }
 

@@ -1,5 +1,9 @@
 //! What is asked from outside, and what is answered: the planner itself decides nothing of this.
 
+use super::experience::Experience;
+use super::robot::Link;
+use super::workcell::Placed;
+
 /// What becomes of experience when the cell changed (Chen 1994, section 2.5).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Strategy {
@@ -44,21 +48,34 @@ pub struct ChangeFacts {
     pub solve_over_reach: f64,
 }
 
-/// An object to which a subgoal may be attached.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// An object to which a subgoal may be attached. What takes time to tell is told when it is asked for.
+#[derive(Clone, Copy, Debug)]
 pub struct LandmarkFacts<'o> {
     pub object: &'o str,
     /// Metres from the tool to the origin of the object's frame.
     pub distance_m: f64,
-    /// The least distance from the robot to the object that is known, metres; infinite where none is.
-    pub clearance_m: f64,
     /// Whether it is said to be moved now and then.
     pub is_movable: bool,
     pub times_moved: u32,
-    /// How many subgoals are attached to it already.
-    pub subgoals: u32,
     /// Whether the subgoal is the goal of the task itself, and not on the way there.
     pub is_goal: bool,
+    pub(super) placed: &'o Placed,
+    /// The robot at the subgoal.
+    pub(super) links: &'o [Link],
+    pub(super) experience: &'o Experience,
+}
+
+impl LandmarkFacts<'_> {
+    /// The least distance from the robot to the object that is known, metres; infinite where none is.
+    pub fn clearance_m(&self) -> f64 {
+        let slack = self.placed.slack(self.links, f64::INFINITY);
+        if slack < 0.0 { f64::INFINITY } else { slack }
+    }
+
+    /// How many subgoals are attached to it already.
+    pub fn subgoals(&self) -> u32 {
+        self.experience.hung_on(self.object)
+    }
 }
 
 /// An edge that was not verified since an object changed.

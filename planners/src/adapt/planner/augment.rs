@@ -22,15 +22,15 @@ impl Adapt {
         let mut best: Option<(f64, TagPoint)> = None;
         for placed in self.cell.placed() {
             let name = placed.object.name.as_str();
-            let clearance_m = placed.slack(&links, f64::INFINITY);
             let facts = LandmarkFacts {
                 object: name,
                 distance_m: placed.object.pose.at.distance(tool.at),
-                clearance_m: if clearance_m < 0.0 { f64::INFINITY } else { clearance_m },
                 is_movable: placed.object.is_movable,
                 times_moved: placed.times_moved,
-                subgoals: self.experience.hung_on(name),
                 is_goal,
+                placed,
+                links: &links,
+                experience: &self.experience,
             };
             let Some(value) = judge.landmark(&facts) else { continue };
             if best.as_ref().is_none_or(|(least, _)| value < *least) {
