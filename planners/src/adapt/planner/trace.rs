@@ -53,7 +53,9 @@ impl Adapt {
 
     /// Whether an edge was verified against all objects as they are now.
     pub(super) fn is_verified(&self, edge: &Edge) -> bool {
-        !edge.is_loose && self.cell.placed().iter().all(|placed| placed.since <= edge.verified_revision)
+        let is_since = |placed: &Placed| placed.since <= edge.verified_revision;
+        let is_latest = edge.verified_revision >= self.cell.revision();
+        !edge.is_loose && (is_latest || self.cell.placed().iter().all(is_since))
     }
 
     fn facts(&self, edge: &Edge) -> EdgeFacts {
