@@ -46,7 +46,9 @@ impl Adapt {
 
     fn tightened_path(&mut self, mut path: Vec<Configuration>) -> Vec<Configuration> {
         const ROUNDS: u32 = 2;
-        const FINEST: f64 = 0.25;
+        const FINEST: f64 = 0.4;
+        /// What a round gained by less than this share leaves little to the next one.
+        const AGAIN: f64 = 0.05;
         for _ in 0..ROUNDS {
             let before = length(&path);
             let mut window = WIDEST * before;
@@ -54,7 +56,7 @@ impl Adapt {
                 self.slide(&mut path, window, LEAST * before);
                 window /= NARROWER;
             }
-            if length(&path) > (1.0 - WORTHWHILE) * before {
+            if length(&path) > (1.0 - AGAIN) * before {
                 break;
             }
         }
@@ -63,20 +65,20 @@ impl Adapt {
 
     /// Moves a window along a path, and goes straight through it wherever that is free and shorter by more than `least`.
     fn slide(&mut self, path: &mut Vec<Configuration>, window: f64, least: f64) {
-        let (mut start, mut end) = (0.0, length(path));
-        while start < end {
-            let (first, a) = place(path, start);
-            let (last, b) = place(path, start + window);
-            let inner = &path[first + 1..=last];
-            let around = match inner {
-                [] => distance(&a, &b),
-                [one] => distance(&a, one) + distance(one, &b),
-                [one, .., other] => distance(&a, one) + length(inner) + distance(other, &b),
-            };
-            if around - distance(&a, &b) > least && Probe::new(&mut self.cell).is_motion_free(&a, &b) {
-                path.splice(first + 1..=last, [a, b]);
-                path.dedup();
-                end = length(path);
+        let mut corners = lengths(path);
+        let mut start = 0.0;
+        while start < corners[corners.len() - 1] {
+            let end = (start + window).min(corners[corners.len() - 1]);
+            let (first, last) = (leg(&corners, start), leg(&corners, end));
+            // On one leg there is nothing to gain, and between corners that are as near as all the way about them.
+            if first < last {
+                let (a, b) = (on(path, &corners, (first, start)), on(path, &corners, (last, end)));
+                if end - start - distance(&a, &b) > least && Probe::new(&mut self.cell).is_motion_free(&a, &b)
+                {
+                    path.splice(first + 1..=last, [a, b]);
+                    path.dedup();
+                    corners = lengths(path);
+                }
             }
             start += window / 2.0;
         }
@@ -101,14 +103,24 @@ fn pieces(path: &[Configuration]) -> Vec<Vec<Configuration>> {
     pieces
 }
 
-/// The place on a path at a length from its beginning, and the last corner before it.
-fn place(path: &[Configuration], mut at: f64) -> (usize, Configuration) {
-    for (corner, ends) in path.windows(2).enumerate() {
-        let long = distance(&ends[0], &ends[1]);
-        if at < long {
-            return (corner, between(&ends[0], &ends[1], at / long));
-        }
-        at -= long;
-    }
-    (path.len().saturating_sub(2), path.last().cloned().unwrap_or_default())
+/// How far along a path each of its corners is.
+fn lengths(path: &[Configuration]) -> Vec<f64> {
+    let legs = path.windows(2).map(|ends| distance(&ends[0], &ends[1]));
+    let sums = legs.scan(0.0, |sum, leg| {
+        *sum += leg;
+        Some(*sum)
+    });
+    std::iter::once(0.0).chain(sums).collect()
+}
+
+/// The leg of a path on which a place lies, by how far along it is.
+fn leg(corners: &[f64], at: f64) -> usize {
+    let before = corners.partition_point(|corner| *corner <= at);
+    before.saturating_sub(1).min(corners.len().saturating_sub(2))
+}
+
+/// That place.
+fn on(path: &[Configuration], corners: &[f64], (leg, at): (usize, f64)) -> Configuration {
+    let long = corners[leg + 1] - corners[leg];
+    between(&path[leg], &path[leg + 1], ((at - corners[leg]) / long).min(1.0))
 }
