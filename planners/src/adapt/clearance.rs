@@ -55,6 +55,11 @@ impl Known {
         self.free.widest(link, enough)
     }
 
+    /// A disc about all places that are known to be taken: its middle, and how far it comes.
+    pub fn about_taken(&self) -> Option<(Point, f64)> {
+        self.taken.about()
+    }
+
     /// Metres from a link to the nearest place that is known to be taken, if that is nearer than so many metres; negative
     /// where they overlap. What only touches does not: room that is known to be free goes up to there, and what was free
     /// must not be refused later.

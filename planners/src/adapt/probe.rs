@@ -1,10 +1,13 @@
 //! Asking whether the robot is free: what is known costs nothing, all else is evaluated, and counted.
 
+use std::ops::Range;
+
 use smallvec::{SmallVec, smallvec};
 
 use super::clearance::Room;
 use super::robot::{Link, Links, Robot, links_between, wider};
 use super::workcell::{Placed, Workcell};
+use crate::geometry::Rect;
 
 /// What plug-ins see of a cell. It does not show the objects, so nothing goes round the count.
 #[derive(Debug)]
@@ -27,7 +30,8 @@ struct Motion<'m> {
     travel: Vec<f64>,
     bend: Vec<f64>,
     kept_m: f64,
-    end: Links,
+    /// The body at both ends, from which each object is asked about.
+    ends: [Links; 2],
 }
 
 /// What is known to hold a link, and by how many metres it exceeds that.
@@ -40,12 +44,20 @@ struct Held<'r> {
 impl<'m> Motion<'m> {
     fn new(cell: &Workcell, robot: &'m dyn Robot, from: &'m [f64], to: &'m [f64]) -> Self {
         let (travel, bend) = (robot.travel(from, to), robot.bend(from, to));
-        Self { robot, from, to, travel, bend, kept_m: cell.kept_m(), end: cell.links(to) }
+        Self {
+            robot,
+            from,
+            to,
+            travel,
+            bend,
+            kept_m: cell.kept_m(),
+            ends: [from, to].map(|end| cell.links(end)),
+        }
     }
 
     fn links(&self, share: f64) -> Links {
-        if share >= 1.0 {
-            return self.end.clone();
+        if share <= 0.0 || share >= 1.0 {
+            return self.ends[usize::from(share >= 1.0)].clone();
         }
         wider(links_between(self.robot, self.from, self.to, share), self.kept_m)
     }
@@ -135,34 +147,55 @@ impl<'m> Motion<'m> {
         const SHORT_M: f64 = 0.05;
         let short = SHORT_M / 2.0 / self.metres().max(SHORT_M / 2.0);
         // Most objects are so far that one look at the middle is enough.
-        let mut near: SmallVec<[usize; 16]> = SmallVec::new();
+        let mut near: SmallVec<[usize; 64]> = SmallVec::new();
         let middle = self.links(0.5);
+        let about = self.about(&middle, 0.5);
         for object in 0..cell.placed.len() {
+            if !cell.placed[object].may_be_taken_in(&about) {
+                continue;
+            }
             match cell.known_clear(object, &middle, &self.travel, 0.5) {
                 None => return true,
                 Some(clear) if clear < 0.5 => near.push(object),
                 Some(_) => {}
             }
         }
-        let mut left: SmallVec<[Gap; 32]> = smallvec![(1.0, 1.0), (0.0, 1.0)];
+        // Each gap with those of the objects that may be touched in it, by their places among `near`.
+        let all = 0..near.len();
+        let mut left: SmallVec<[(Gap, Range<usize>); 32]> =
+            smallvec![((1.0, 1.0), all.clone()), ((0.0, 1.0), all)];
         let mut next = 0;
-        while let Some(&(low, high)) = left.get(next).filter(|_| !near.is_empty()) {
+        while let Some(((low, high), of)) = left.get(next).cloned() {
             next += 1;
             let (middle, half) = (f64::midpoint(low, high), (high - low) / 2.0);
             let links = self.links(middle);
             let mut clear = half;
-            for &object in &near {
-                match cell.known_clear(object, &links, &self.travel, clear) {
+            let first = near.len();
+            for at in of {
+                let object = near[at];
+                match cell.known_clear(object, &links, &self.travel, half) {
                     None => return true,
-                    Some(its) => clear = its,
+                    Some(its) if its < half => {
+                        near.push(object);
+                        clear = clear.min(its);
+                    }
+                    Some(_) => {}
                 }
             }
             let clear = clear.max(short);
             if clear < half {
-                left.extend([(low, middle - clear), (middle + clear, high)]);
+                let still = first..near.len();
+                left.extend([((low, middle - clear), still.clone()), ((middle + clear, high), still)]);
             }
         }
         false
+    }
+
+    /// A rectangle about all that the robot may take over so much of the motion before and after it has these links.
+    fn about(&self, links: &[Link], share: f64) -> Rect {
+        let each = links.iter().zip(&self.travel);
+        let each = each.map(|(link, travel)| link.axis.bounds().grown(link.radius + share * travel));
+        Rect::around(each.flat_map(|rect| rect.corners()))
     }
 }
 

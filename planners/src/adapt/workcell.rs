@@ -6,8 +6,8 @@ use std::sync::Arc;
 use super::clearance::{Clearance, Known};
 use super::object::Object;
 use super::robot::{Link, Links, Robot, wider};
-use crate::geometry::Segment;
-use crate::geometry::tolerance::SNAP_M;
+use crate::geometry::tolerance::{ROUNDING_M, SNAP_M};
+use crate::geometry::{Point, Rect, Segment};
 use crate::pose::Frame;
 
 /// Number of the state of a cell: 0 at first, one more with each change.
@@ -160,8 +160,12 @@ impl Workcell {
         most: f64,
     ) -> Option<f64> {
         let placed = &self.placed[index];
+        let Some(about) = placed.about_taken() else { return Some(most) };
         let mut share = most;
         for (link, &travel) in links.iter().zip(travel) {
+            if is_beyond(about, link, share * travel) {
+                continue;
+            }
             let Some(metres) = placed.known.nearer(&placed.inward(link), share * travel) else { continue };
             if metres < 0.0 {
                 self.last_touched = Some(index);
@@ -228,8 +232,27 @@ impl Placed {
     }
 
     pub(super) fn is_known_to_touch(&self, links: &[Link]) -> bool {
-        links.iter().any(|link| self.known.nearer(&self.inward(link), 0.0).is_some())
+        let Some(about) = self.about_taken() else { return false };
+        links
+            .iter()
+            .any(|link| !is_beyond(about, link, 0.0) && self.known.nearer(&self.inward(link), 0.0).is_some())
     }
+
+    /// Whether something in a rectangle may be known to be taken.
+    pub(super) fn may_be_taken_in(&self, about: &Rect) -> bool {
+        self.about_taken().is_some_and(|(at, within_m)| about.grown(within_m + ROUNDING_M).contains(at))
+    }
+
+    /// A disc about all that is known to be taken, in the frame of the cell.
+    fn about_taken(&self) -> Option<(Point, f64)> {
+        self.known.about_taken().map(|(at, within_m)| (self.frame.place(at), within_m))
+    }
+}
+
+/// Whether a link keeps more than so many metres from a disc: most do, and that is told in the frame of the cell.
+fn is_beyond((at, within_m): (Point, f64), link: &Link, than_m: f64) -> bool {
+    let near_m = within_m + link.radius + than_m + ROUNDING_M;
+    link.axis.squared_distance(at) > near_m * near_m
 }
 
 /// Places are told to a micrometre up to there, metres; what is farther off no arm comes near.

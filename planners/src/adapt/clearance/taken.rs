@@ -57,6 +57,11 @@ impl Taken {
         }
     }
 
+    /// A disc about all of them: its middle, and how far it comes.
+    pub fn about(&self) -> Option<(Point, f64)> {
+        self.about.map(|about| (about.at, about.within_m))
+    }
+
     /// Metres from an axis to what is nearest to it, if that is nearer than so many metres; negative where it takes a part of it.
     pub fn nearer(&self, axis: &Segment, mut than_m: f64) -> Option<f64> {
         self.about?.nears(axis, than_m)?;
