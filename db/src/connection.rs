@@ -1,6 +1,7 @@
 //! A connection with the runtime that drives it, in blocking form.
 
 use std::path::{Path, PathBuf};
+use std::pin::{Pin, pin};
 use std::time::Duration;
 
 use sqlx::sqlite::{SqliteConnectOptions, SqliteSynchronous};
@@ -24,7 +25,7 @@ impl Connection {
         }
         let runtime =
             Builder::new_current_thread().build().map_err(|source| Error::Io { path: at(), source })?;
-        let connection = runtime.block_on(options.connect()).map_err(|e| match error::code(&e) {
+        let connection = wait(&runtime, options.connect()).map_err(|e| match error::code(&e) {
             Some(14) => Error::CannotOpen(at()),
             _ => Error::from(e).at(path),
         })?;
@@ -38,12 +39,12 @@ impl Connection {
 
     pub(crate) fn run<T>(&mut self, work: impl AsyncFnOnce(&mut SqliteConnection) -> Result<T>) -> Result<T> {
         let connection = self.inner.as_mut().expect("it is taken away by drop alone");
-        self.runtime.block_on(work(connection)).map_err(|e| e.at(&self.path))
+        wait(&self.runtime, work(connection)).map_err(|e| e.at(&self.path))
     }
 
     /// Does what needs no connection of ours, or one of its own.
     pub(crate) fn beside<T>(&self, work: impl AsyncFnOnce(&Path) -> Result<T>) -> Result<T> {
-        self.runtime.block_on(work(&self.path)).map_err(|e| e.at(&self.path))
+        wait(&self.runtime, work(&self.path)).map_err(|e| e.at(&self.path))
     }
 
     /// Runs a statement that gives no rows.
@@ -58,9 +59,20 @@ impl Connection {
 impl Drop for Connection {
     fn drop(&mut self) {
         if let Some(connection) = self.inner.take() {
-            self.runtime.block_on(connection.close()).ok();
+            wait(&self.runtime, connection.close()).ok();
         }
     }
+}
+
+/// Waits for some work. The runtime is handed all work as one type: with each type of work its loop would be compiled once more,
+/// and that was a quarter of this crate.
+pub(crate) fn wait<T>(runtime: &Runtime, work: impl Future<Output = T>) -> T {
+    let mut done = None;
+    {
+        let work = pin!(async { done = Some(work.await) });
+        runtime.block_on(work as Pin<&mut dyn Future<Output = ()>>);
+    }
+    done.expect("it was waited for")
 }
 
 /// What every connection of ours has: foreign keys, full synchronisation, and room for a build's pages. A transaction is

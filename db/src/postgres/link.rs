@@ -7,6 +7,7 @@ use sqlx::{ConnectOptions, Connection, PgConnection};
 use tokio::runtime::{Builder, Runtime};
 
 use super::place::{CONNECTING, Place};
+use crate::connection::wait;
 use crate::error::{Error, Result};
 use crate::failure::Failure;
 
@@ -55,7 +56,7 @@ impl Link {
 
     /// Does something beside the connection.
     pub(super) fn apart<T>(&self, work: impl Future<Output = T>) -> T {
-        self.runtime.block_on(work)
+        wait(&self.runtime, work)
     }
 
     /// Does something with the connection, once.
@@ -63,7 +64,7 @@ impl Link {
         self.connect()?;
         let Some(connection) = &mut self.connection else { return Err(self.unreachable("no connection")) };
         let worked =
-            self.runtime.block_on(async { tokio::time::timeout(self.patience, work(connection)).await });
+            wait(&self.runtime, async { tokio::time::timeout(self.patience, work(connection)).await });
         match worked {
             Ok(Ok(value)) => Ok(value),
             Ok(Err(error)) => {
@@ -119,9 +120,8 @@ impl Link {
         if self.connection.is_some() {
             return Ok(());
         }
-        let opened = self
-            .runtime
-            .block_on(async { tokio::time::timeout(CONNECTING, open(&self.place.options)).await });
+        let opened =
+            wait(&self.runtime, async { tokio::time::timeout(CONNECTING, open(&self.place.options)).await });
         let opened = match opened {
             Ok(Ok(connection)) => Ok(connection),
             Ok(Err(error)) => Err(self.said(Error::Sql(error))),
@@ -165,7 +165,7 @@ impl Link {
 impl Drop for Link {
     fn drop(&mut self) {
         if let Some(connection) = self.connection.take() {
-            self.runtime.block_on(async {
+            wait(&self.runtime, async {
                 tokio::time::timeout(Duration::from_secs(1), connection.close()).await.ok();
             });
         }
