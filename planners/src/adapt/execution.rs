@@ -31,17 +31,17 @@ pub fn collision<'o>(
     path: &[Configuration],
 ) -> Option<Collision> {
     let outlines: Vec<Outline> = objects.into_iter().map(Outline::of).collect();
-    hit_of(robot, &outlines.iter(), path)
+    hit_of(robot, &outlines, path)
 }
 
 /// The first collision of a path with outlines that were made ready before.
 pub(super) fn hit_of<'o>(
     robot: &dyn Robot,
-    outlines: &(impl Iterator<Item = &'o Outline> + Clone),
+    outlines: impl IntoIterator<Item = &'o Outline>,
     path: &[Configuration],
 ) -> Option<Collision> {
     let last = path.len().saturating_sub(1);
-    let outlines: Vec<&Outline> = outlines.clone().collect();
+    let outlines: Vec<&Outline> = outlines.into_iter().collect();
     (0..last.max(1)).find_map(|motion| {
         let (from, to) = (path.get(motion)?, path.get((motion + 1).min(last))?);
         let (share, outline) =
@@ -50,7 +50,7 @@ pub(super) fn hit_of<'o>(
     })
 }
 
-/// A straight motion.
+/// A straight motion under this check; the one of the planner's own is not used, so that its faults are found.
 struct Motion<'m> {
     robot: &'m dyn Robot,
     from: &'m [f64],

@@ -160,6 +160,9 @@ impl<'m> Motion<'m> {
                 Some(_) => {}
             }
         }
+        if near.is_empty() {
+            return false;
+        }
         // Each gap with those of the objects that may be touched in it, by their places among `near`.
         let all = 0..near.len();
         let mut left: SmallVec<[(Gap, Range<usize>); 32]> =

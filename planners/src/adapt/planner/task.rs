@@ -137,7 +137,7 @@ impl Adapt {
             let outlines = self.outlines();
             let is_new = |(since, _): &&(Revision, Outline)| checked.is_none_or(|revision| *since > revision);
             let new = outlines.iter().filter(is_new).map(|(_, outline)| outline);
-            let Some(hit) = hit_of(self.cell.robot().as_ref(), &new, &part.path) else {
+            let Some(hit) = hit_of(self.cell.robot().as_ref(), new, &part.path) else {
                 self.checked.extend(edge.map(|id| (id, self.cell.revision())));
                 continue;
             };

@@ -70,7 +70,7 @@ impl Adapt {
         while start < corners[corners.len() - 1] {
             let end = (start + window).min(corners[corners.len() - 1]);
             let (first, last) = (leg(&corners, start), leg(&corners, end));
-            // On one leg there is nothing to gain, and between corners that are as near as all the way about them.
+            // On one leg there is nothing to gain.
             if first < last {
                 let (a, b) = (on(path, &corners, (first, start)), on(path, &corners, (last, end)));
                 if end - start - distance(&a, &b) > least && Probe::new(&mut self.cell).is_motion_free(&a, &b)
@@ -119,7 +119,7 @@ fn leg(corners: &[f64], at: f64) -> usize {
     before.saturating_sub(1).min(corners.len().saturating_sub(2))
 }
 
-/// That place.
+/// The place on a leg that is so far along its path.
 fn on(path: &[Configuration], corners: &[f64], (leg, at): (usize, f64)) -> Configuration {
     let long = corners[leg + 1] - corners[leg];
     between(&path[leg], &path[leg + 1], ((at - corners[leg]) / long).min(1.0))
