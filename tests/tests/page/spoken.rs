@@ -101,7 +101,9 @@ fn walk(tokens: TokenStream, before: &mut Vec<String>, found: &mut Vec<Text>) {
             TokenTree::Ident(name) => before.push(name.to_string()),
             TokenTree::Literal(of) => {
                 let is_said = |words: &String| !BEFORE_IT_IS_SERVED.iter().any(|not| words.starts_with(not));
-                if let Some(words) = sentence(&of.to_string()).filter(is_said) {
+                // said by a panic: to who mends the program, not on the page
+                let is_panic = before.last().is_some_and(|word| word == "expect" || word == "expect_err");
+                if let Some(words) = sentence(&of.to_string()).filter(is_said).filter(|_| !is_panic) {
                     let near = before.iter().rev().take(BEFORE);
                     let is_help = near.clone().any(|word| HELPS.contains(&word.as_str()));
                     found.push(Text { words, is_help });
