@@ -14,22 +14,43 @@ pub(crate) const APPLICATION: i64 = 0x4164_6974;
 
 type Scripts = &'static [&'static str];
 
-/// What a version of the schema changes.
+/// What changes a schema.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Step {
+pub(crate) struct Change {
     /// In every database.
     pub(crate) all: Scripts,
     /// In those that keep worlds, after that.
     pub(crate) worlds: Scripts,
 }
 
+/// What a version of the schema changes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Step {
+    change: Change,
+    /// What it and all steps before it come to: a new database begins with that, in a tenth of the time.
+    sum: Option<Change>,
+}
+
 impl Step {
     pub(crate) const fn of_all(all: Scripts) -> Self {
-        Self { all, worlds: &[] }
+        Self::of(all, &[])
+    }
+
+    pub(crate) const fn of_worlds(worlds: Scripts) -> Self {
+        Self::of(&[], worlds)
+    }
+
+    pub(crate) const fn of(all: Scripts, worlds: Scripts) -> Self {
+        Self { change: Change { all, worlds }, sum: None }
+    }
+
+    const fn with_sum(self, sum: Change) -> Self {
+        Self { sum: Some(sum), ..self }
     }
 }
 
-/// What makes version n of version n - 1; the first makes a database of an empty file. Never edited once released.
+/// What makes version n of version n - 1; the first makes a database of an empty file. Never edited once released. The sum of all
+/// of them is made by a test (below), and stands at the newest.
 pub(crate) const STEPS: &[Step] = &[
     Step::of_all(&[
         include_str!("../sql/v1/01-site.sql"),
@@ -62,26 +83,23 @@ pub(crate) const STEPS: &[Step] = &[
         include_str!("../sql/v3/20-saved-queries.sql"),
     ]),
     Step::of_all(&[include_str!("../sql/v4/10-blocks.sql")]),
-    Step {
-        all: &[],
-        worlds: &[
-            include_str!("../sql/v5/10-plans.sql"),
-            include_str!("../sql/v5/20-missions.sql"),
-            include_str!("../sql/v5/30-floor-plans.sql"),
-            include_str!("../sql/v5/40-learned.sql"),
-            include_str!("../sql/v5/50-experience.sql"),
-        ],
-    },
+    Step::of_worlds(&[
+        include_str!("../sql/v5/10-plans.sql"),
+        include_str!("../sql/v5/20-missions.sql"),
+        include_str!("../sql/v5/30-floor-plans.sql"),
+        include_str!("../sql/v5/40-learned.sql"),
+        include_str!("../sql/v5/50-experience.sql"),
+    ]),
     Step::of_all(&[include_str!("../sql/v6/10-outlines.sql")]),
     Step::of_all(&[include_str!("../sql/v7/10-spaces.sql")]),
     Step::of_all(&[include_str!("../sql/v8/10-laid.sql")]),
     Step::of_all(&[include_str!("../sql/v9/10-berth.sql")]),
     Step::of_all(&[include_str!("../sql/v10/10-carried-out.sql")]),
     Step::of_all(&[include_str!("../sql/v11/10-courses.sql")]),
-    Step {
-        all: &[include_str!("../sql/v12/20-change-sets.sql")],
-        worlds: &[include_str!("../sql/v12/10-plans-are-sites.sql")],
-    },
+    Step::of(
+        &[include_str!("../sql/v12/20-change-sets.sql")],
+        &[include_str!("../sql/v12/10-plans-are-sites.sql")],
+    ),
     Step::of_all(&[
         include_str!("../sql/v13/10-views-for-all.sql"),
         include_str!("../sql/v13/20-geopackage.sql"),
@@ -91,12 +109,15 @@ pub(crate) const STEPS: &[Step] = &[
     Step::of_all(&[include_str!("../sql/v16/10-one-way.sql")]),
     Step::of_all(&[include_str!("../sql/v17/10-laid-places.sql")]),
     Step::of_all(&[include_str!("../sql/v18/10-no-outline.sql")]),
-    Step { all: &[], worlds: &[include_str!("../sql/v19/10-lost.sql")] },
-    Step { all: &[], worlds: &[include_str!("../sql/v20/10-endings.sql")] },
-    Step { all: &[], worlds: &[include_str!("../sql/v21/10-robots.sql")] },
+    Step::of_worlds(&[include_str!("../sql/v19/10-lost.sql")]),
+    Step::of_worlds(&[include_str!("../sql/v20/10-endings.sql")]),
+    Step::of_worlds(&[include_str!("../sql/v21/10-robots.sql")]),
     Step::of_all(&[include_str!("../sql/v22/10-derived.sql")]),
     Step::of_all(&[include_str!("../sql/v23/10-laid-bridges.sql")]),
-    Step::of_all(&[include_str!("../sql/v24/10-map-routes.sql")]),
+    Step::of_all(&[include_str!("../sql/v24/10-map-routes.sql")]).with_sum(Change {
+        all: &[include_str!("../sql/sum/all.sql")],
+        worlds: &[include_str!("../sql/sum/worlds.sql")],
+    }),
 ];
 
 /// The newest schema version.
@@ -144,33 +165,58 @@ pub(crate) async fn migrate_in_place(
     path: &Path,
     steps: &[Step],
 ) -> Result<()> {
-    let (made, at_once) = match kind(connection).await? {
+    match kind(connection).await? {
         Kind::Other => return Err(Error::NotAdit(path.to_owned())),
-        Kind::Adit(found) if found == steps.len() as i64 => return Ok(()),
-        Kind::Adit(_) => (made_by(steps).await?, 1),
-        Kind::Empty => (vec![Made::default(); steps.len()], steps.len()),
-    };
-    let steps: Vec<(i64, &Step, &Made)> =
-        (0..).zip(steps.iter().zip(&made)).map(|(from, (step, made))| (from, step, made)).collect();
-    for steps in steps.chunks(at_once.max(1)) {
-        take(connection, path, steps).await?;
+        Kind::Adit(found) if found == steps.len() as i64 => {}
+        Kind::Adit(_) => {
+            let ways = one_by_one(steps);
+            for (way, made) in ways.iter().zip(made_by(&ways).await?) {
+                take(connection, path, &[(*way, made)]).await?;
+            }
+        }
+        Kind::Empty => {
+            let ways: Vec<_> = from_nothing(steps).into_iter().map(|way| (way, Made::default())).collect();
+            take(connection, path, &ways).await?;
+        }
     }
     Ok(())
 }
 
-/// Takes steps in one transaction, each from its version, unless another program took them while we waited for the lock.
-async fn take(connection: &mut SqliteConnection, path: &Path, steps: &[(i64, &Step, &Made)]) -> Result<()> {
+/// A change that leads from one version to another.
+#[derive(Clone, Copy)]
+struct Way {
+    from: i64,
+    to: i64,
+    change: Change,
+}
+
+fn one_by_one(steps: &[Step]) -> Vec<Way> {
+    (0..).zip(steps).map(|(from, step)| Way { from, to: from + 1, change: step.change }).collect()
+}
+
+/// The last sum that is known, and the steps after it.
+fn from_nothing(steps: &[Step]) -> Vec<Way> {
+    let mut ways = one_by_one(steps);
+    let sums = (1..).zip(steps).filter_map(|(to, step)| Some(Way { from: 0, to, change: step.sum? }));
+    if let Some(sum) = sums.last() {
+        ways.splice(..sum.to as usize, [sum]);
+    }
+    ways
+}
+
+/// Makes changes in one transaction, each from its version, unless another program made them while we waited for the lock.
+async fn take(connection: &mut SqliteConnection, path: &Path, ways: &[(Way, Made)]) -> Result<()> {
     let mut transaction = connection.begin_with("BEGIN IMMEDIATE").await?;
-    for (from, step, made) in steps {
+    for (Way { from, to, change }, made) in ways {
         let version: i64 = sqlx::query_scalar("PRAGMA user_version").fetch_one(&mut *transaction).await?;
         if version != *from {
             continue;
         }
-        run(&mut transaction, path, step.all, &made.in_all).await?;
+        run(&mut transaction, path, change.all, &made.in_all).await?;
         if worlds::are_kept(&mut transaction).await? {
-            run(&mut transaction, path, step.worlds, &made.for_worlds).await?;
+            run(&mut transaction, path, change.worlds, &made.for_worlds).await?;
         }
-        let mark = format!("PRAGMA application_id = {APPLICATION}; PRAGMA user_version = {}", from + 1);
+        let mark = format!("PRAGMA application_id = {APPLICATION}; PRAGMA user_version = {to}");
         sqlx::raw_sql(AssertSqlSafe(mark)).execute(&mut *transaction).await?;
     }
     transaction.commit().await?;
@@ -187,14 +233,15 @@ pub(crate) async fn keep_worlds(
     if worlds::are_kept(&mut transaction).await? {
         return Ok(());
     }
-    for (step, made) in steps.iter().zip(made_by(steps).await?) {
-        run(&mut transaction, path, step.worlds, &made.for_worlds).await?;
+    let ways = from_nothing(steps);
+    for (way, made) in ways.iter().zip(made_by(&ways).await?) {
+        run(&mut transaction, path, way.change.worlds, &made.for_worlds).await?;
     }
     transaction.commit().await?;
     Ok(())
 }
 
-/// Runs the scripts of a step that makes the tables `made`, unless somebody's own table has the name of one.
+/// Runs scripts that make the tables `made`, unless somebody's own table has the name of one.
 async fn run(connection: &mut SqliteConnection, path: &Path, scripts: Scripts, made: &[Named]) -> Result<()> {
     let there = if made.is_empty() { Vec::new() } else { relation::all(connection).await? };
     for other in there {
@@ -209,20 +256,20 @@ async fn run(connection: &mut SqliteConnection, path: &Path, scripts: Scripts, m
     Ok(())
 }
 
-/// The tables and views that a step makes.
+/// The tables and views that a change makes.
 #[derive(Clone, Default)]
 struct Made {
     in_all: Vec<Named>,
     for_worlds: Vec<Named>,
 }
 
-/// What each step makes where nothing is.
-async fn made_by(steps: &[Step]) -> Result<Vec<Made>> {
+/// What each change makes where nothing was before the first.
+async fn made_by(ways: &[Way]) -> Result<Vec<Made>> {
     let mut empty = SqliteConnection::connect("sqlite::memory:").await?;
     let mut made = Vec::new();
-    for step in steps {
-        let in_all = made_in(&mut empty, step.all).await?;
-        made.push(Made { in_all, for_worlds: made_in(&mut empty, step.worlds).await? });
+    for Way { change, .. } in ways {
+        let in_all = made_in(&mut empty, change.all).await?;
+        made.push(Made { in_all, for_worlds: made_in(&mut empty, change.worlds).await? });
     }
     Ok(made)
 }
@@ -236,6 +283,9 @@ async fn made_in(connection: &mut SqliteConnection, scripts: Scripts) -> Result<
     made.retain(|table| !before.iter().any(|there| there.name == table.name));
     Ok(made)
 }
+
+#[cfg(test)]
+mod sum_test;
 
 #[cfg(test)]
 mod tests {
