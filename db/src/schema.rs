@@ -1,7 +1,8 @@
 //! The columns of a table, once: what SQL reads and writes, what a block holds and what planners give follow from them.
 //!
 //! A column more on rooms or doors is a field of [`Room`](crate::room::Room) or [`Door`](crate::door::Door), a line in
-//! `COLUMNS` below it, and an `ALTER TABLE` in a new step of `sql/` (`migrate.rs` lists the steps).
+//! `COLUMNS` below it, and an `ALTER TABLE` in a new step of `sql/` (`migrate.rs` lists the steps; `WRITE_SCHEMA=1 cargo test -p
+//! adit-db --lib` writes what they come to, with which new databases begin).
 
 use sqlx::Row as _;
 use sqlx::SqliteConnection;
