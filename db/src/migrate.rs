@@ -285,7 +285,7 @@ async fn made_in(connection: &mut SqliteConnection, scripts: Scripts) -> Result<
 }
 
 #[cfg(test)]
-mod sum_test;
+mod sum_tests;
 
 #[cfg(test)]
 mod tests {

@@ -1,4 +1,4 @@
--- What every database has. Made of the steps by a test (src/migrate/sum_test.rs).
+-- What every database has. Made of the steps by a test (src/migrate/sum_tests.rs).
 
 CREATE TABLE site (
   key   TEXT PRIMARY KEY CONSTRAINT "key must not be empty" CHECK (length(key) > 0),

@@ -1,4 +1,4 @@
--- What a database that keeps worlds has besides. Made of the steps by a test (src/migrate/sum_test.rs).
+-- What a database that keeps worlds has besides. Made of the steps by a test (src/migrate/sum_tests.rs).
 
 CREATE TABLE floor_plans (
   world   TEXT PRIMARY KEY,

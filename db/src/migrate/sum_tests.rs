@@ -62,7 +62,7 @@ async fn made(steps: &[Step]) -> [(Objects, Rows); 2] {
 
 /// Tables, each with its rows, its indexes and its triggers, which say nothing of those rows; then views, each with its triggers.
 fn script(of: &str, (objects, rows): &(Objects, Rows)) -> String {
-    let mut script = format!("-- {of}. Made of the steps by a test (src/migrate/sum_test.rs).\n");
+    let mut script = format!("-- {of}. Made of the steps by a test (src/migrate/sum_tests.rs).\n");
     for kind in ["table", "view"] {
         for (_, name, _, text) in objects.iter().filter(|object| object.0 == kind) {
             write!(script, "\n{text};\n").unwrap();
