@@ -142,6 +142,12 @@ pub async fn named(connection: &mut SqliteConnection, name: &str) -> Result<Opti
     Ok(select(connection, "WHERE name = ?", &[name.into()]).await?.pop())
 }
 
+/// The states of a robot that have rooms; none where rooms are not cut by state.
+async fn states(connection: &mut SqliteConnection, robot: &str) -> Result<Vec<String>> {
+    let sql = "SELECT DISTINCT state FROM rooms WHERE robot = ? AND state IS NOT NULL ORDER BY state";
+    Ok(sqlx::query_scalar(sql).bind(robot).fetch_all(connection).await?)
+}
+
 /// Replaces all rooms by these. Doors go with the rooms that they join: write those afterwards.
 pub async fn replace(connection: &mut SqliteConnection, rooms: &[Room]) -> Result<()> {
     in_bulk(connection, "rooms", async |connection| {
@@ -162,6 +168,11 @@ impl Tx<'_> {
     /// The room of this name.
     pub fn room_named(&mut self, name: &str) -> Result<Option<Room>> {
         self.run(async |connection| named(connection, name).await)
+    }
+
+    /// The states of a robot that have rooms; none where rooms are not cut by state.
+    pub fn states_with_rooms(&mut self, robot: &str) -> Result<Vec<String>> {
+        self.run(async |connection| states(connection, robot).await)
     }
 
     /// Replaces all rooms by these. Doors go with the rooms that they join: write those afterwards.

@@ -179,10 +179,14 @@ fn fit(tx: &mut Tx<'_>, robot: Option<&str>, measure: Option<&str>, scale: Scale
     };
     let cells: Vec<FitCell> = states.iter().filter_map(cell).collect();
     notes.extend(estimate.notes());
+    // One that no room is cut for is not driven in.
+    let cut = tx.states_with_rooms(&robot)?;
+    let may_be_driven_in = |state: &&str| cut.is_empty() || cut.iter().any(|with_rooms| with_rooms == state);
     let idle: Vec<&str> = states
         .iter()
         .map(|state| &*state.state)
         .filter(|state| !estimate.values.contains_key(*state))
+        .filter(may_be_driven_in)
         .collect();
     if !idle.is_empty() {
         notes.push(format!("never driven in: {}", idle.join(", ")));

@@ -166,6 +166,14 @@ fn traversals_come_from_a_file_and_the_state_with_most_metres_keeps_its_hardness
 }
 
 #[test]
+fn a_state_in_which_no_room_is_cut_is_not_said_to_be_idle() {
+    let site = TestSite::example("clinic").built();
+    assert_eq!(site.sqlite3("SELECT count(*) FROM robots WHERE state = 'IMPOSSIBLE'"), ["1"]);
+    let said = site.adit("fit", &[]).expecting(0).stdout;
+    assert!(said.contains("never driven in: STAND, SIDE-STAND, SQUAT, LIE\n"), "{said}");
+}
+
+#[test]
 fn one_bad_row_and_nothing_is_added() {
     let site = TestSite::example("paper").built();
     let file = site.path().join("run.csv");
