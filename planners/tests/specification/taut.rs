@@ -188,7 +188,7 @@ fn check_goes_on(way: &Way) -> Result<(), TestCaseError> {
     Ok(())
 }
 
-/// A hall of two rooms for an easy state, and of one for a hard one, which goes on beyond the door between the two.
+/// A hall of two rooms for an easy state, and of one for a hard one, which needs no door between the two, and goes on beyond them.
 #[test]
 fn what_one_copy_finds_is_not_taken_by_another_that_weighs_otherwise() {
     let outline = |x0: f64, x1: f64| Convex::from(Rect::new(x0, 0.0, x1, 2.0));
@@ -199,19 +199,20 @@ fn what_one_copy_finds_is_not_taken_by_another_that_weighs_otherwise() {
         walking: Walking::PerMetre(per_m),
     };
     let (here, there, low) = (RoomIndex::new(0), RoomIndex::new(1), RoomIndex::new(2));
-    let door = |door: u32, (room1, room2): (RoomIndex, RoomIndex), crossing: Crossing, hardness: f64| RouteDoor {
-        door,
-        room1,
-        room2,
-        crossing,
-        at: Point::new(4.0, 1.0),
-        hardness: Some(hardness),
-        passable: true,
-        one_way: false,
-    };
+    let door =
+        |door: u32, (room1, room2): (RoomIndex, RoomIndex), crossing: Crossing, hardness: f64| RouteDoor {
+            door,
+            room1,
+            room2,
+            crossing,
+            at: Point::new(4.0, 1.0),
+            hardness: Some(hardness),
+            passable: true,
+            one_way: false,
+        };
     let change = |number, room, (x0, x1)| door(number, (room, low), Crossing::Within(outline(x0, x1)), 0.5);
     let new = || {
-        let rooms = vec![room((0.0, 4.0), 1.0), room((4.0, 8.0), 1.0), room((0.0, 8.0), 3.0)];
+        let rooms = vec![room((0.0, 4.0), 1.0), room((4.0, 8.0), 1.0), room((0.0, 10.0), 3.0)];
         let between = Crossing::Through(Segment::new(Point::new(4.0, 0.0), Point::new(4.0, 2.0)));
         let doors = vec![
             door(1, (here, there), between, 0.0),
@@ -222,12 +223,15 @@ fn what_one_copy_finds_is_not_taken_by_another_that_weighs_otherwise() {
     };
     let (from, to) = (Point::new(1.0, 1.0), Point::new(7.0, 1.0));
     let shut = [(DoorIndex::new(0), Some(0.0), false)];
-    let mut graph = new();
-    // both know where ways may turn, and no gate
-    way(&graph, from, Point::new(2.0, 1.0));
+    let (mut graph, known) = (new(), new());
+    way(&known, from, to);
+    // both know where ways may turn, and of no door where a change of shape pays
+    graph.know_changes(&known, std::iter::repeat_n(None, 3));
     let other = graph.clone();
     graph.reweigh([], shut);
     let cost = |way: Option<Way>| way.expect("there is a way").cost;
+    // one that has to change its shape asks where that may pay
+    assert!(way(&other, from, Point::new(9.0, 1.0)).is_some());
     assert_eq!(cost(way(&other, from, to)), 6.0);
     let mut fresh = new();
     fresh.reweigh([], shut);
