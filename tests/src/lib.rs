@@ -39,19 +39,24 @@ pub fn adit() -> &'static Path {
     })
 }
 
-/// Cargo, in the repository, as whoever runs the tests calls it. What it tells a test of the test's package is left out: build
-/// scripts of others (ring's) would look at it, and all that stands on them would be built anew.
+/// Cargo, in the repository, as whoever runs the tests calls it.
 pub fn cargo() -> Command {
-    let mut cargo = Command::new(env!("CARGO"));
+    let mut cargo = untold(Command::new(env!("CARGO")));
+    cargo.current_dir(repository());
+    cargo
+}
+
+/// A program that may call cargo, without what cargo tells a test of the test's package: build scripts of others (ring's) would look
+/// at it, and all that stands on them would be built anew.
+pub fn untold(mut program: Command) -> Command {
     let of_package = |name: &OsString| {
         let name = name.to_string_lossy();
         name.starts_with("CARGO_PKG_") || name.starts_with("CARGO_MANIFEST_")
     };
     for name in std::env::vars_os().map(|(name, _)| name).filter(of_package) {
-        cargo.env_remove(name);
+        program.env_remove(name);
     }
-    cargo.current_dir(repository());
-    cargo
+    program
 }
 
 /// The top folder of the repository.

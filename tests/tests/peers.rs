@@ -2,14 +2,14 @@
 
 use std::process::Command;
 
-use adit_tests::{Ran, adit, repository};
+use adit_tests::{Ran, adit, repository, untold};
 
 /// Runs a script. What it needs may be missing here: that is said loudly, and nothing is tested.
 fn runs(script: &str, words: &[&str]) {
     // so that two of them do not build it at once
     adit();
     let work = tempfile::tempdir().expect("a temporary folder");
-    let mut bash = Command::new("bash");
+    let mut bash = untold(Command::new("bash"));
     bash.arg(repository().join("tests/peers").join(script));
     if ["routing.sh", "postgres.sh"].contains(&script) {
         let shared =
