@@ -165,49 +165,52 @@ pub(crate) async fn migrate_in_place(
     path: &Path,
     steps: &[Step],
 ) -> Result<()> {
-    match kind(connection).await? {
+    let mut found = kind(connection).await?;
+    if found == Kind::Empty {
+        let all: Vec<_> = from_nothing(steps).into_iter().map(|upgrade| (upgrade, Made::default())).collect();
+        take(connection, path, &all).await?;
+        // another program may have been first, and know fewer steps
+        found = kind(connection).await?;
+    }
+    match found {
         Kind::Other => return Err(Error::NotAdit(path.to_owned())),
-        Kind::Adit(found) if found == steps.len() as i64 => {}
-        Kind::Adit(_) => {
-            let ways = one_by_one(steps);
-            for (way, made) in ways.iter().zip(made_by(&ways).await?) {
-                take(connection, path, &[(*way, made)]).await?;
+        Kind::Adit(found) if found < steps.len() as i64 => {
+            let upgrades = one_by_one(steps);
+            for (upgrade, made) in upgrades.iter().zip(made_by(&upgrades).await?) {
+                take(connection, path, &[(*upgrade, made)]).await?;
             }
         }
-        Kind::Empty => {
-            let ways: Vec<_> = from_nothing(steps).into_iter().map(|way| (way, Made::default())).collect();
-            take(connection, path, &ways).await?;
-        }
+        Kind::Adit(_) | Kind::Empty => {}
     }
     Ok(())
 }
 
 /// A change that leads from one version to another.
 #[derive(Clone, Copy)]
-struct Way {
+struct Upgrade {
     from: i64,
     to: i64,
     change: Change,
 }
 
-fn one_by_one(steps: &[Step]) -> Vec<Way> {
-    (0..).zip(steps).map(|(from, step)| Way { from, to: from + 1, change: step.change }).collect()
+fn one_by_one(steps: &[Step]) -> Vec<Upgrade> {
+    (0..).zip(steps).map(|(from, step)| Upgrade { from, to: from + 1, change: step.change }).collect()
 }
 
 /// The last sum that is known, and the steps after it.
-fn from_nothing(steps: &[Step]) -> Vec<Way> {
-    let mut ways = one_by_one(steps);
-    let sums = (1..).zip(steps).filter_map(|(to, step)| Some(Way { from: 0, to, change: step.sum? }));
+fn from_nothing(steps: &[Step]) -> Vec<Upgrade> {
+    let mut upgrades = one_by_one(steps);
+    let sums = (1..).zip(steps).filter_map(|(to, step)| Some(Upgrade { from: 0, to, change: step.sum? }));
     if let Some(sum) = sums.last() {
-        ways.splice(..sum.to as usize, [sum]);
+        upgrades.splice(..sum.to as usize, [sum]);
     }
-    ways
+    upgrades
 }
 
 /// Makes changes in one transaction, each from its version, unless another program made them while we waited for the lock.
-async fn take(connection: &mut SqliteConnection, path: &Path, ways: &[(Way, Made)]) -> Result<()> {
+async fn take(connection: &mut SqliteConnection, path: &Path, upgrades: &[(Upgrade, Made)]) -> Result<()> {
     let mut transaction = connection.begin_with("BEGIN IMMEDIATE").await?;
-    for (Way { from, to, change }, made) in ways {
+    for (Upgrade { from, to, change }, made) in upgrades {
         let version: i64 = sqlx::query_scalar("PRAGMA user_version").fetch_one(&mut *transaction).await?;
         if version != *from {
             continue;
@@ -233,9 +236,9 @@ pub(crate) async fn keep_worlds(
     if worlds::are_kept(&mut transaction).await? {
         return Ok(());
     }
-    let ways = from_nothing(steps);
-    for (way, made) in ways.iter().zip(made_by(&ways).await?) {
-        run(&mut transaction, path, way.change.worlds, &made.for_worlds).await?;
+    let upgrades = from_nothing(steps);
+    for (upgrade, made) in upgrades.iter().zip(made_by(&upgrades).await?) {
+        run(&mut transaction, path, upgrade.change.worlds, &made.for_worlds).await?;
     }
     transaction.commit().await?;
     Ok(())
@@ -264,10 +267,10 @@ struct Made {
 }
 
 /// What each change makes where nothing was before the first.
-async fn made_by(ways: &[Way]) -> Result<Vec<Made>> {
+async fn made_by(upgrades: &[Upgrade]) -> Result<Vec<Made>> {
     let mut empty = SqliteConnection::connect("sqlite::memory:").await?;
     let mut made = Vec::new();
-    for Way { change, .. } in ways {
+    for Upgrade { change, .. } in upgrades {
         let in_all = made_in(&mut empty, change.all).await?;
         made.push(Made { in_all, for_worlds: made_in(&mut empty, change.worlds).await? });
     }
@@ -318,6 +321,20 @@ mod tests {
             sqlx::query("SELECT id, width FROM door").fetch_one(&mut connection).await.unwrap();
             let mut copy = open(&path.with_file_name("site.db.bak-v1")).await;
             assert_eq!(kind(&mut copy).await.unwrap(), Kind::Adit(1));
+        });
+    }
+
+    #[test]
+    fn an_empty_one_begins_with_the_last_sum_and_takes_the_steps_after_it() {
+        const SUM: Change = Change {
+            all: &["CREATE TABLE door (id INTEGER, of_sum); INSERT INTO door (id) VALUES (7)"],
+            worlds: &[],
+        };
+        in_a_folder(async |path| {
+            let mut connection = open(&path).await;
+            migrate(&mut connection, &path, &[BROKEN, ONE.with_sum(SUM), TWO]).await.unwrap();
+            assert_eq!(kind(&mut connection).await.unwrap(), Kind::Adit(3));
+            sqlx::query("SELECT id, of_sum, width FROM door").fetch_one(&mut connection).await.unwrap();
         });
     }
 

@@ -1,5 +1,5 @@
-//! What the steps of the schema come to, for new databases to begin with: `WRITE_SCHEMA=1 cargo test -p adit-db --lib` writes it to
-//! `sql/sum`.
+//! What the steps of the schema come to, for new databases to begin with; it stands in `sql/sum`, where `WRITE_SCHEMA=1 cargo test -p
+//! adit-db --lib` writes it.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
